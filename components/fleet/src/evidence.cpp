@@ -9,8 +9,12 @@ namespace panvo::fleet {
 namespace {
 
 CrossSighting swapped(const CrossSighting& sighting) {
-  return {sighting.place_b, sighting.place_a, sighting.a_from_b.inverse(),
-          vision::invert_covariance(sighting.a_from_b, sighting.covariance), sighting.travelled_m, !sighting.by_a};
+  return {sighting.place_b,
+          sighting.place_a,
+          sighting.a_from_b.inverse(),
+          vision::invert_covariance(sighting.a_from_b, sighting.covariance),
+          sighting.travelled_m,
+          !sighting.by_a};
 }
 
 }  // namespace
@@ -24,8 +28,8 @@ void Evidence::update(const std::vector<const SharedMap*>& maps, int most) {
       const Pair pair{one->id(), other->id()};
       const std::pair versions{one->version(), other->version()}, sessions{one->session(), other->session()};
       const auto known = decisions_.find(pair);
-      const bool is_current = known != decisions_.end() && known->second.versions == versions &&
-                              known->second.sessions == sessions;
+      const bool is_current =
+          known != decisions_.end() && known->second.versions == versions && known->second.sessions == sessions;
       if (is_current || (count >= most && known != decisions_.end())) {
         kept.emplace(pair, std::move(known->second));
         continue;
@@ -47,8 +51,8 @@ void Evidence::report(const Pair& pair, const MapJoin& before, const MapJoin& no
                                 now.contradicting));
   } else {
     ++undone_;
-    news_.push_back(fmt::format("maps {} and {} are no longer joined: {}", to_text(pair.first), to_text(pair.second),
-                                now.reason));
+    news_.push_back(
+        fmt::format("maps {} and {} are no longer joined: {}", to_text(pair.first), to_text(pair.second), now.reason));
   }
 }
 
@@ -76,6 +80,21 @@ std::vector<JoinedPair> Evidence::joined(const std::vector<const SharedMap*>& ma
     }
   }
   return pairs;
+}
+
+std::vector<JoinedMaps> Evidence::joined_maps(const std::vector<const SharedMap*>& maps,
+                                              const std::vector<std::pair<MapId, MapId>>& left_out) const {
+  std::map<MapId, const SharedMap*> by_id;
+  for (const auto* map : maps) by_id[map->id()] = map;
+  std::vector<JoinedMaps> found;
+  for (const auto& [pair, decision] : decisions_) {
+    const auto is_pair = [&pair](const auto& other) {
+      return std::minmax(other.first, other.second) == std::minmax(pair.first, pair.second);
+    };
+    if (!decision.join.is_joined || std::any_of(left_out.begin(), left_out.end(), is_pair)) continue;
+    found.push_back({by_id.at(pair.first), by_id.at(pair.second), decision.join.agreed});
+  }
+  return found;
 }
 
 std::vector<std::string> Evidence::take_news() { return std::exchange(news_, {}); }

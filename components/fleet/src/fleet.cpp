@@ -15,13 +15,14 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kAnnounce_ns = kSecond_ns;
-constexpr std::int64_t kMove_ns = 2 * kSecond_ns;      // corrections come in bursts and move all places
-constexpr std::int64_t kRepeat_ns = kSecond_ns;        // between two repetitions for one robot
-constexpr std::size_t kMaxRepeats = 1000;              // robots whose last repetition is remembered
-constexpr std::size_t kPlacesPerMessage = 4;           // 30 kB
-constexpr std::size_t kMovesPerMessage = 50;           // 17 kB
+constexpr std::int64_t kMove_ns = 2 * kSecond_ns;  // corrections come in bursts and move all places
+constexpr std::int64_t kPose_ns = kSecond_ns / 2;
+constexpr std::int64_t kRepeat_ns = kSecond_ns;  // between two repetitions for one robot
+constexpr std::size_t kMaxRepeats = 1000;        // robots whose last repetition is remembered
+constexpr std::size_t kPlacesPerMessage = 4;     // 30 kB
+constexpr std::size_t kMovesPerMessage = 50;     // 17 kB
 constexpr std::size_t kMaxAskedFor = 32;
-constexpr std::size_t kMaxPending = 4;                 // places whose keypoints were asked for and not received
+constexpr std::size_t kMaxPending = 4;  // places whose keypoints were asked for and not received
 constexpr std::size_t kMaxEarly = 10'000;
 constexpr std::uint32_t kSlotsPerMap = 32;
 constexpr int kMaxViewsOfPair = 3;
@@ -43,8 +44,8 @@ Fleet::Fleet(const FleetParameters& parameters, std::string robot, const landmar
       members_(parameters.members, robot_, settings_, describer.basis().limits()),
       recognition_(parameters.recognition, keypoints, describer, observer),
       evidence_(parameters.join),
-      budget_(1e3 * parameters.sharing.max_kb_per_s, 1e3 * parameters.sharing.max_kb_per_s * parameters.sharing.burst_s) {
-}
+      budget_(1e3 * parameters.sharing.max_kb_per_s,
+              1e3 * parameters.sharing.max_kb_per_s * parameters.sharing.burst_s) {}
 
 void Fleet::add_pose(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_base, const vision::Matrix6d& covariance,
                      double speed_m_per_s) {
@@ -90,8 +91,9 @@ std::optional<ViewPoint> Fleet::view_point(const PoseSample& pose) const {
   ViewPoint best;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [id, entry] : own_->places()) {
-    const auto& place = poses_.contains(id) ? poses_.at(id) : landmarks::LandmarkPose{id, entry.landmark.map_from_base,
-                                                                                     entry.landmark.covariance};
+    const auto& place = poses_.contains(id)
+                            ? poses_.at(id)
+                            : landmarks::LandmarkPose{id, entry.landmark.map_from_base, entry.landmark.covariance};
     const double distance_m = (place.map_from_base.translation() - pose.map_from_base.translation()).norm();
     const bool is_last = id == own_->places().rbegin()->first;
     if (distance_m > kAnchorRadius_m && !is_last) continue;
@@ -219,29 +221,62 @@ void Fleet::advance(std::int64_t now_ns) {
   members_.advance(now_ns);
   budget_.advance(now_ns);
   if (!own_) return;
-  if (has_moved_ && (!moved_ns_ || now_ns - *moved_ns_ >= kMove_ns)) {
-    std::vector<landmarks::LandmarkPose> poses;
-    for (const auto& [id, pose] : poses_) poses.push_back(pose);
-    own_->move(poses, parameters_.sharing.moved_m, parameters_.sharing.moved_deg * vision::kDegree);
-    moved_ns_ = now_ns;
-    has_moved_ = false;
-  }
+  share_moves(now_ns);
+  const int changes = evidence_.made() + evidence_.undone();
   evidence_.update(maps(), kDecisionsPerCall);
+  const bool has_changed = changes != evidence_.made() + evidence_.undone();
+  if (posed_ns_ && now_ns - *posed_ns_ < kPose_ns && !has_changed) return;
+  posed_ns_ = now_ns;
+  find_frame();
+  find_pose();
+}
+
+void Fleet::share_moves(std::int64_t now_ns) {
+  if (!has_moved_ || (moved_ns_ && now_ns - *moved_ns_ < kMove_ns)) return;
+  std::vector<landmarks::LandmarkPose> poses;
+  for (const auto& [id, pose] : poses_) poses.push_back(pose);
+  own_->move(poses, parameters_.sharing.moved_m, parameters_.sharing.moved_deg * vision::kDegree);
+  moved_ns_ = now_ns;
+  has_moved_ = false;
+}
+
+void Fleet::find_frame() {
   auto present = members_.present();
   present.insert(own_->id());
   const auto* pose = trail_.latest();
   const auto from = pose ? view_point(*pose) : std::nullopt;
   const auto near = from ? from->own_place : own_->places().rbegin()->first;
-  auto frame = common_frame(own_->id(), evidence_.joined(maps(), own_->id(), near), present,
-                            parameters_.join.gate_chi_square);
+  auto frame =
+      common_frame(own_->id(), evidence_.joined(maps(), own_->id(), near), present, parameters_.join.gate_chi_square);
   if (frame.map != frame_.map) news_.push_back(fmt::format("the fleet's frame is that of map {}", to_text(frame.map)));
   frame_ = std::move(frame);
 }
 
+void Fleet::find_pose() {
+  const auto* pose = trail_.latest();
+  if (!pose) return;
+  const auto* member = members_.find(frame_.map);
+  const SharedMap& common = frame_.map == own_->id() || !member ? *own_ : member->map;
+  const auto found =
+      most_certain_pose(common, *own_, *pose, evidence_.joined_maps(maps(), frame_.contradictory), parameters_.join);
+  if (found) {
+    pose_ = *found;
+    common_from_own_ = pose_.common_from_base * pose->map_from_base.inverse();
+  } else {
+    pose_ = {};
+    common_from_own_ = frame_.common_from_own.a_from_b;
+  }
+}
+
+vision::Matrix6d Fleet::covariance_in_common(const vision::Matrix6d& covariance_in_own) const {
+  return pose_.bridges == 0 ? covariance_in_own : pose_.covariance;
+}
+
 Announcement Fleet::announcement() const {
   const auto digest = highest_sent_ == own_->version() ? own_->digest() : 0;
-  return {robot_, own_->id(), own_->session(), highest_sent_, digest,
-          static_cast<std::uint32_t>(own_->places().size()), settings_text_, frame_.map};
+  return {robot_,         own_->id(), own_->session(),
+          highest_sent_,  digest,     static_cast<std::uint32_t>(own_->places().size()),
+          settings_text_, frame_.map};
 }
 
 std::optional<FleetMessage> Fleet::next(std::int64_t now_ns) {

@@ -83,8 +83,9 @@ class FleetComponent final : public runtime::Component {
         settings_(landmarks::description_settings(parameters_.description,
                                                   static_cast<std::uint64_t>(parameters_.description_seed))),
         own_keypoints_(std::make_shared<position_corrector::SpilledKeypoints>(parameters_.spill_folder)),
-        fleet_({parameters_.sharing, parameters_.members, parameters_.recognition, parameters_.join}, parameters_.robot.empty() ? random_name() : parameters_.robot, parameters_.keypoints,
-               describer_, settings_, own_keypoints_, &timer_),
+        fleet_({parameters_.sharing, parameters_.members, parameters_.recognition, parameters_.join},
+               parameters_.robot.empty() ? random_name() : parameters_.robot, parameters_.keypoints, describer_,
+               settings_, own_keypoints_, &timer_),
         members_(context.output(topics::kFleetMembers)),
         places_(context.output(topics::kFleetPlaces)),
         requests_(context.output(topics::kFleetRequests)),
@@ -137,7 +138,7 @@ class FleetComponent final : public runtime::Component {
     const auto covariance = conversions::to_matrix(message.pose().covariance());
     fleet_.add_pose(conversions::stamp_ns(message), *pose, covariance, std::isfinite(speed) ? speed : 0.0);
     use_waiting();
-    pose_.publish(message, *pose, covariance, fleet_.frame());
+    pose_.publish(message, *pose, covariance, fleet_);
   }
 
   /// A panorama waits for the pose of its stamp; only the latest one does.
@@ -155,7 +156,8 @@ class FleetComponent final : public runtime::Component {
                                            panorama.reason());
     }
     const auto base_from_panorama =
-        transforms_.lookup(parameters_.base_frame, message->header().frame_id(), "using the extrinsics of the last landmark")
+        transforms_
+            .lookup(parameters_.base_frame, message->header().frame_id(), "using the extrinsics of the last landmark")
             .value_or(base_from_panorama_);
     if (const auto fault = fleet_.add_panorama(conversions::stamp_ns(*message), *panorama, base_from_panorama)) {
       context_.log().warn_throttled(*fault, "{} {}", context_.resolved_name(topics::kPanorama), *fault);

@@ -118,8 +118,7 @@ Announcement to_announcement(const panvo_msgs::msg::FleetMember& message) {
 }
 
 Request to_request(const panvo_msgs::msg::FleetRequest& message) {
-  return {message.map(), message.has_gap() ? std::optional(message.from_version()) : std::nullopt,
-          message.keypoints()};
+  return {message.map(), message.has_gap() ? std::optional(message.from_version()) : std::nullopt, message.keypoints()};
 }
 
 KeypointAnswer to_answer(const panvo_msgs::msg::FleetKeypoints& message) {
@@ -160,8 +159,7 @@ panvo_msgs::msg::FleetState to_state(const Fleet& fleet, const std::string& flee
   state.robot(fleet.robot());
   state.map(fleet.own() ? fleet.own()->id() : 0);
   state.common_map(fleet.frame().map);
-  const auto& transform = fleet.frame().common_from_own;
-  state.common_from_map(to_pose_message(transform.a_from_b, transform.covariance));
+  state.common_from_map(to_pose_message(fleet.common_from_own(), fleet.covariance_in_common(vision::Matrix6d::Zero())));
   for (const auto& [map, member] : fleet.members().all()) state.peers().push_back(to_peer(fleet, map, member));
   return state;
 }

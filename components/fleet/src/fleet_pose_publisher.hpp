@@ -5,7 +5,7 @@
 #include <string>
 
 #include "nav_msgs/msg/Odometry.h"
-#include "panvo/fleet/common_frame.hpp"
+#include "panvo/fleet/fleet.hpp"
 #include "panvo/runtime/context.hpp"
 #include "tf2_msgs/msg/TFMessage.h"
 
@@ -18,7 +18,7 @@ class FleetPosePublisher {
 
   /// `enhanced`: a message of odometry/enhanced, with its pose and covariance.
   void publish(const nav_msgs::msg::Odometry& enhanced, const Eigen::Isometry3d& map_from_base,
-               const vision::Matrix6d& covariance, const CommonFrame& frame);
+               const vision::Matrix6d& covariance, const Fleet& fleet);
 
  private:
   const std::string fleet_frame_;

@@ -32,8 +32,7 @@ Matrix6d diagonal(double position_sigma, double rotation_sigma) {
 }
 
 Matrix6d widened(const CrossSighting& sighting, const JoinParameters& parameters) {
-  return sighting.covariance +
-         diagonal(parameters.position_sigma_m, parameters.rotation_sigma_deg * vision::kDegree);
+  return sighting.covariance + diagonal(parameters.position_sigma_m, parameters.rotation_sigma_deg * vision::kDegree);
 }
 
 /// The two places of a sighting.
@@ -54,11 +53,10 @@ double loop_error(const CrossSighting& i, const Ends& ends_i, const CrossSightin
   const Eigen::Isometry3d through_a = ends_i.a->map_from_base.inverse() * ends_j.a->map_from_base;
   const Eigen::Isometry3d through_b = ends_i.b->map_from_base.inverse() * ends_j.b->map_from_base;
   const auto error = vision::pose_error(i.a_from_b * through_b, through_a * j.a_from_b);
-  const Matrix6d covariance =
-      vision::compose_covariance(through_a, between(*ends_i.a, *ends_j.a, parameters), j.a_from_b,
-                                 widened(j, parameters)) +
-      vision::compose_covariance(i.a_from_b, widened(i, parameters), through_b,
-                                 between(*ends_i.b, *ends_j.b, parameters));
+  const Matrix6d covariance = vision::compose_covariance(through_a, between(*ends_i.a, *ends_j.a, parameters),
+                                                         j.a_from_b, widened(j, parameters)) +
+                              vision::compose_covariance(i.a_from_b, widened(i, parameters), through_b,
+                                                         between(*ends_i.b, *ends_j.b, parameters));
   return error.dot(covariance.ldlt().solve(error));
 }
 
@@ -95,8 +93,8 @@ std::vector<Ends> ends_of(const SharedMap& a, const SharedMap& b, const std::vec
 }
 
 bool is_upright(const CrossSighting& sighting, const Ends& ends, double max_tilt_deg) {
-  const Eigen::Matrix3d rotation = ends.a->map_from_base.linear() * sighting.a_from_b.linear() *
-                                   ends.b->map_from_base.linear().transpose();
+  const Eigen::Matrix3d rotation =
+      ends.a->map_from_base.linear() * sighting.a_from_b.linear() * ends.b->map_from_base.linear().transpose();
   return rotation(2, 2) >= std::cos(max_tilt_deg * vision::kDegree);
 }
 
@@ -107,7 +105,8 @@ std::vector<NodeSet> consistent_pairs(const std::vector<CrossSighting>& sighting
     if (!is_upright(sightings[i], ends[i], parameters.max_tilt_deg)) continue;
     for (std::size_t j = 0; j < i; ++j) {
       if (!is_upright(sightings[j], ends[j], parameters.max_tilt_deg)) continue;
-      if (!(loop_error(sightings[j], ends[j], sightings[i], ends[i], parameters) < parameters.gate_chi_square)) continue;
+      if (!(loop_error(sightings[j], ends[j], sightings[i], ends[i], parameters) < parameters.gate_chi_square))
+        continue;
       neighbours[i] |= NodeSet{1} << j;
       neighbours[j] |= NodeSet{1} << i;
     }

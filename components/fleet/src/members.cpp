@@ -86,17 +86,24 @@ std::optional<std::string> Members::make_room() {
 void Members::begin(const Announcement& said) {
   const auto before = map_of_.find(said.robot);
   if (before == map_of_.end()) {
-    news_.push_back(fmt::format("{} joined the fleet with map {}, {} places", said.robot, to_text(said.map), said.places));
+    news_.push_back(
+        fmt::format("{} joined the fleet with map {}, {} places", said.robot, to_text(said.map), said.places));
   } else {
     news_.push_back(fmt::format("{} was restarted with the new map {}; its map {} stays", said.robot, to_text(said.map),
                                 to_text(before->second)));
     members_.at(before->second).is_present = false;
   }
   map_of_[said.robot] = said.map;
-  members_.insert_or_assign(
-      said.map, Member{said.robot,
-                       SharedMap(said.map, said.session, static_cast<std::size_t>(parameters_.max_places)),
-                       said, 0, true, {}, {}, 0, 0});
+  members_.insert_or_assign(said.map,
+                            Member{said.robot,
+                                   SharedMap(said.map, said.session, static_cast<std::size_t>(parameters_.max_places)),
+                                   said,
+                                   0,
+                                   true,
+                                   {},
+                                   {},
+                                   0,
+                                   0});
 }
 
 void Members::start_again(Member& member, const std::string& why) {
@@ -127,7 +134,8 @@ void Members::compare(Member& member, std::int64_t now_ns) {
   if (++member.contradictions < kMaxContradictions) {
     start_again(member, "has other contents than received");
   } else if (member.contradictions == kMaxContradictions) {
-    news_.push_back(fmt::format("the map of {} contradicts its digest again and again: kept as received", member.robot));
+    news_.push_back(
+        fmt::format("the map of {} contradicts its digest again and again: kept as received", member.robot));
   }
 }
 

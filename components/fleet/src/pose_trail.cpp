@@ -23,8 +23,9 @@ void PoseTrail::add(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_bas
 }
 
 std::optional<PoseSample> PoseTrail::at(std::int64_t stamp_ns) const {
-  const auto after = std::lower_bound(samples_.begin(), samples_.end(), stamp_ns,
-                                      [](const PoseSample& sample, std::int64_t stamp) { return sample.stamp_ns < stamp; });
+  const auto after =
+      std::lower_bound(samples_.begin(), samples_.end(), stamp_ns,
+                       [](const PoseSample& sample, std::int64_t stamp) { return sample.stamp_ns < stamp; });
   if (after == samples_.end()) return std::nullopt;
   if (after->stamp_ns == stamp_ns) return *after;
   if (after == samples_.begin()) return std::nullopt;

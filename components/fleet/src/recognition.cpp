@@ -86,9 +86,8 @@ void Recognition::add(const PlaceKey& key, std::vector<landmarks::Keypoint> keyp
   wanted_.erase(key);
   kept_[key] = {std::move(keypoints), ++uses_};
   if (kept_.size() <= static_cast<std::size_t>(parameters_.max_keypoint_sets)) return;
-  kept_.erase(std::min_element(kept_.begin(), kept_.end(), [](const auto& one, const auto& two) {
-    return one.second.used < two.second.used;
-  }));
+  kept_.erase(std::min_element(kept_.begin(), kept_.end(),
+                               [](const auto& one, const auto& two) { return one.second.used < two.second.used; }));
 }
 
 void Recognition::forget(MapId map) {
@@ -118,12 +117,10 @@ std::optional<Sighting> Recognition::verify(const Ready& ready, const landmarks:
   auto& kept = kept_.at(ready.key);
   kept.used = ++uses_;
   ++counts_.verified;
-  const auto found =
-      estimate_panorama_pose(ready.keypoints, kept.keypoints, ready.heading_rad, parameters_.pose);
+  const auto found = estimate_panorama_pose(ready.keypoints, kept.keypoints, ready.heading_rad, parameters_.pose);
   if (!found.pose) return std::nullopt;
   ++counts_.recognised;
-  const auto seen_from_base =
-      to_base(*found.pose, {landmark.base_from_panorama, ready.from.base_from_panorama});
+  const auto seen_from_base = to_base(*found.pose, {landmark.base_from_panorama, ready.from.base_from_panorama});
   Sighting sighting;
   sighting.own_place = ready.from.own_place;
   sighting.seen = ready.key;

@@ -97,8 +97,7 @@ std::size_t SharedMap::move(const std::vector<landmarks::LandmarkPose>& poses, d
   return count;
 }
 
-std::optional<MapChanges> SharedMap::since(std::uint64_t version, std::size_t max_places,
-                                           std::size_t max_moves) const {
+std::optional<MapChanges> SharedMap::since(std::uint64_t version, std::size_t max_places, std::size_t max_moves) const {
   if (version >= version_) return std::nullopt;
   const std::uint64_t until = last_within(version, max_places, max_moves);
   MapChanges changes{id_, session_, version, until, {}, {}, {}};

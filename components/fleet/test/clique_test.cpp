@@ -35,8 +35,7 @@ int largest_of_all(const std::vector<NodeSet>& neighbours) {
 }
 
 TEST(LargestClique, IsTheSquareWithDiagonalsBesideATriangle) {
-  const auto neighbours =
-      graph(7, {{0, 1}, {1, 2}, {0, 2}, {2, 3}, {3, 4}, {3, 5}, {3, 6}, {4, 5}, {4, 6}, {5, 6}});
+  const auto neighbours = graph(7, {{0, 1}, {1, 2}, {0, 2}, {2, 3}, {3, 4}, {3, 5}, {3, 6}, {4, 5}, {4, 6}, {5, 6}});
   EXPECT_EQ(largest_clique(neighbours, 0b1111111), NodeSet{0b1111000});
 }
 

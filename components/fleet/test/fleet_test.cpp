@@ -93,7 +93,9 @@ class Network {
       std::visit([&](const auto& content) { deliver(robot->fleet, name, content); }, message);
     }
   }
-  void deliver(Fleet& fleet, const std::string& from, const Announcement& said) { note(fleet.hear(said, now_ns_), from); }
+  void deliver(Fleet& fleet, const std::string& from, const Announcement& said) {
+    note(fleet.hear(said, now_ns_), from);
+  }
   void deliver(Fleet& fleet, const std::string& from, const MapChanges& changes) {
     note(fleet.take(from, changes, now_ns_), from);
   }
@@ -113,8 +115,7 @@ class Network {
 };
 
 double frame_error(const Robot& robot, const Robot& owner) {
-  return vision::pose_error(robot.fleet.frame().common_from_own.a_from_b,
-                            owner.map_from_world * robot.map_from_world.inverse())
+  return vision::pose_error(robot.fleet.common_from_own(), owner.map_from_world * robot.map_from_world.inverse())
       .norm();
 }
 

@@ -20,7 +20,8 @@ inline Eigen::Isometry3d flat(double x, double y, double yaw_rad) {
 
 inline vision::Matrix6d covariance_of(double position_m, double rotation_rad) {
   vision::Vector6d variance;
-  variance << Eigen::Vector3d::Constant(position_m * position_m), Eigen::Vector3d::Constant(rotation_rad * rotation_rad);
+  variance << Eigen::Vector3d::Constant(position_m * position_m),
+      Eigen::Vector3d::Constant(rotation_rad * rotation_rad);
   return variance.asDiagonal();
 }
 
@@ -60,8 +61,13 @@ struct TwoMaps {
     b.add(sighting(own, {kA, seen}, error));
   }
   Sighting sighting(std::uint32_t own, const PlaceKey& seen, const Eigen::Isometry3d& error) {
-    return {slot++, own, seen, error * world_place(own).inverse() * world_place(seen.place), covariance_of(0.05, 0.003),
-            40, 10.0 * own};
+    return {slot++,
+            own,
+            seen,
+            error * world_place(own).inverse() * world_place(seen.place),
+            covariance_of(0.05, 0.003),
+            40,
+            10.0 * own};
   }
 
   const Eigen::Isometry3d a_from_world = flat(5.0, -3.0, 0.4);

@@ -45,8 +45,8 @@ TEST(MapJoin, HasAnErrorWithinItsCovariance) {
   constexpr int kTrials = 200;
   for (int trial = 0; trial < kTrials; ++trial) {
     TwoMaps maps;
-    const JoinParameters exact{.position_sigma_m = 0.0, .rotation_sigma_deg = 0.0, .drift_ratio = 0.0,
-                               .drift_deg_per_m = 0.0};
+    const JoinParameters exact{
+        .position_sigma_m = 0.0, .rotation_sigma_deg = 0.0, .drift_ratio = 0.0, .drift_deg_per_m = 0.0};
     for (std::uint32_t id = 1; id <= 8; ++id) {
       auto error = flat(0.05 * normal(random), 0.05 * normal(random), 0.003 * normal(random));
       error.translation().z() = 0.05 * normal(random);
@@ -158,7 +158,8 @@ TEST(MapJoin, AllowsForTheDriftBetweenPlacesThatAreFarApart) {
   maps.b.move(bent, 0.0, 0.0);
   for (const std::uint32_t id : {1U, 6U, 12U}) maps.a_sees(id, id);
   EXPECT_TRUE(decide_on(maps).is_joined);
-  EXPECT_FALSE(decide(maps.a, maps.b, {.position_sigma_m = 0.01, .drift_ratio = 0.0, .drift_deg_per_m = 0.0}).is_joined);
+  EXPECT_FALSE(
+      decide(maps.a, maps.b, {.position_sigma_m = 0.01, .drift_ratio = 0.0, .drift_deg_per_m = 0.0}).is_joined);
 }
 
 TEST(MapJoin, FitsBestNearTheGivenPlace) {
@@ -182,7 +183,8 @@ TEST(MapJoin, FitsBestNearTheGivenPlace) {
 
 TEST(MapJoin, UsesTheLatestSightingsOfEachDirection) {
   TwoMaps maps;
-  for (int i = 0; i < 50; ++i) maps.a_sees(1 + static_cast<std::uint32_t>(i) % 12, 1 + static_cast<std::uint32_t>(i) % 12);
+  for (int i = 0; i < 50; ++i)
+    maps.a_sees(1 + static_cast<std::uint32_t>(i) % 12, 1 + static_cast<std::uint32_t>(i) % 12);
   EXPECT_EQ(cross_sightings(maps.a, maps.b).size(), 32U);
   maps.b_sees(1, 1);
   EXPECT_EQ(cross_sightings(maps.a, maps.b).size(), 33U);

@@ -15,16 +15,23 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Optional;
 
-
 /// Members as robot "me" knows them, and the map of another robot, "two".
 class FleetMembers : public testing::Test {
  protected:
   Announcement announcement() const {
-    return {"two", owner_.id(), owner_.session(), owner_.version(), owner_.digest(),
-            static_cast<std::uint32_t>(owner_.places().size()), landmarks::to_text(settings_), 0};
+    return {"two",
+            owner_.id(),
+            owner_.session(),
+            owner_.version(),
+            owner_.digest(),
+            static_cast<std::uint32_t>(owner_.places().size()),
+            landmarks::to_text(settings_),
+            0};
   }
   std::optional<std::string> announce() { return members_.hear(announcement(), now_); }
-  std::optional<std::string> send(std::uint64_t from) { return members_.take("two", *owner_.since(from, 99, 99), now_); }
+  std::optional<std::string> send(std::uint64_t from) {
+    return members_.take("two", *owner_.since(from, 99, 99), now_);
+  }
   const SharedMap& replica() const { return members_.find(7)->map; }
 
   const landmarks::DescriptionSettings settings_{{"patches", "400"}, {"seed", "1"}};

@@ -22,8 +22,8 @@ constexpr int kMaxDelayS = 3600;
 constexpr int kMaxImageMb = 64;
 constexpr int kMaxMessageMb = 2000;  // Fast DDS counts the bytes of a message in 31 bits
 constexpr int kMaxRateHz = 1'000'000;
-const std::vector<std::string> kActions = {"node_container", "arg", "let", "include",
-                                           "group",          "push_ros_namespace", "set_remap"};
+const std::vector<std::string> kActions = {"node_container",     "arg",      "let", "include", "group",
+                                           "push_ros_namespace", "set_remap"};
 
 class SystemReader {
  public:

@@ -11,8 +11,7 @@ namespace panvo::fleet {
 /// Limits what is sent: a mean rate, and bursts of a few seconds of it. Times are of any monotonic clock.
 class ByteBudget {
  public:
-  ByteBudget(double bytes_per_s, double burst_bytes)
-      : rate_(bytes_per_s), burst_(burst_bytes), left_(burst_bytes) {}
+  ByteBudget(double bytes_per_s, double burst_bytes) : rate_(bytes_per_s), burst_(burst_bytes), left_(burst_bytes) {}
 
   void advance(std::int64_t now_ns) {
     if (has_begun_ && now_ns > now_ns_) {

@@ -21,7 +21,7 @@ struct JoinedPair {
 struct CommonFrame {
   MapId map = 0;
   MapTransform common_from_own;
-  std::map<MapId, MapTransform> own_from;           ///< of each joined map, without the own one
+  std::map<MapId, MapTransform> own_from;              ///< of each joined map, without the own one
   std::vector<std::pair<MapId, MapId>> contradictory;  ///< joins left out: they contradict stronger ones around a loop
 };
 

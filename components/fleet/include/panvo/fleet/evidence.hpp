@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "panvo/fleet/common_frame.hpp"
+#include "panvo/fleet/fleet_pose.hpp"
 #include "panvo/fleet/map_join.hpp"
 
 namespace panvo::fleet {
@@ -26,6 +27,10 @@ class Evidence {
 
   /// Transforms of the joined pairs. Those of `own` fit near its place `near`; others near their latest sighting.
   std::vector<JoinedPair> joined(const std::vector<const SharedMap*>& maps, MapId own, std::uint32_t near) const;
+
+  /// The joined pairs with their agreeing sightings, without those in `left_out`.
+  std::vector<JoinedMaps> joined_maps(const std::vector<const SharedMap*>& maps,
+                                      const std::vector<std::pair<MapId, MapId>>& left_out) const;
 
   /// Joins made and undone since the last call, with the reason.
   std::vector<std::string> take_news();

@@ -13,6 +13,7 @@
 #include "panvo/fleet/byte_budget.hpp"
 #include "panvo/fleet/common_frame.hpp"
 #include "panvo/fleet/evidence.hpp"
+#include "panvo/fleet/fleet_pose.hpp"
 #include "panvo/fleet/map_join.hpp"
 #include "panvo/fleet/members.hpp"
 #include "panvo/fleet/pose_trail.hpp"
@@ -36,7 +37,8 @@ struct SharingParameters {
     field(&P::burst_s, "burst_s", "s", "seconds of that rate that may be sent at once after a pause", 0.1, 600.0);
     field(&P::moved_m, "moved_m", "m", "a place that moves less in the own map is not sent again", 0.0, 100.0);
     field(&P::moved_deg, "moved_deg", "deg", "the same of its rotation", 0.0, 180.0);
-    field(&P::step_m, "step_m", "m", "path between panoramas that are compared with places of other robots", 0.0, 100.0);
+    field(&P::step_m, "step_m", "m", "path between panoramas that are compared with places of other robots", 0.0,
+          100.0);
   }
 };
 
@@ -102,6 +104,10 @@ class Fleet {
   const Members& members() const noexcept { return members_; }
   const Evidence& evidence() const noexcept { return evidence_; }
   const CommonFrame& frame() const noexcept { return frame_; }
+  /// Of the own map in the common frame, as it fits near the vehicle.
+  const Eigen::Isometry3d& common_from_own() const noexcept { return common_from_own_; }
+  /// Covariance of a pose in the common frame, given that in the own map.
+  vision::Matrix6d covariance_in_common(const vision::Matrix6d& covariance_in_own) const;
   const Recognition::Counts& counts() const noexcept { return recognition_.counts(); }
   std::vector<std::string> take_news();
 
@@ -118,6 +124,9 @@ class Fleet {
   std::vector<const SharedMap*> maps() const;
   std::vector<ForeignPlace> foreign_places() const;
   std::optional<Request> next_request(std::int64_t now_ns);
+  void share_moves(std::int64_t now_ns);
+  void find_frame();
+  void find_pose();
   Announcement announcement() const;
 
   const FleetParameters parameters_;
@@ -129,6 +138,8 @@ class Fleet {
   Recognition recognition_;
   Evidence evidence_;
   CommonFrame frame_;
+  FleetPose pose_;  ///< the own one, at the last decision
+  Eigen::Isometry3d common_from_own_ = Eigen::Isometry3d::Identity();
   ByteBudget budget_;
 
   PoseTrail trail_;
@@ -142,7 +153,7 @@ class Fleet {
   std::uint64_t sent_version_ = 0, highest_sent_ = 0;
   std::map<std::string, std::int64_t> repeated_ns_;  ///< when changes were last repeated for a robot
   std::deque<std::uint32_t> asked_for_;              ///< own places whose keypoints were requested
-  std::optional<std::int64_t> announced_ns_, moved_ns_;
+  std::optional<std::int64_t> announced_ns_, moved_ns_, posed_ns_;
   bool has_moved_ = false;  ///< poses_ holds poses that are not shared yet
   std::vector<std::string> news_;
 };

@@ -74,8 +74,8 @@ struct MapJoin {
   bool is_joined = false;
   std::string reason;  ///< why not joined; empty if joined
   int sightings = 0, agreeing = 0, contradicting = 0;
-  int seen_places = 0;                   ///< different pairs of places among the agreeing sightings
-  std::vector<CrossSighting> agreed;     ///< the largest set of sightings that agree with each other
+  int seen_places = 0;                ///< different pairs of places among the agreeing sightings
+  std::vector<CrossSighting> agreed;  ///< the largest set of sightings that agree with each other
 };
 
 /// Finds the largest set of sightings each pair of which is consistent: going from one sighting through map a to the

@@ -24,9 +24,10 @@ struct MemberParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = MemberParameters;
-    field(&P::max_robots, "max_robots", "1",
-          "largest number of other robots, and of their maps; further ones are refused. Maps of absent robots make room",
-          1, 1000);
+    field(
+        &P::max_robots, "max_robots", "1",
+        "largest number of other robots, and of their maps; further ones are refused. Maps of absent robots make room",
+        1, 1000);
     field(&P::max_places, "max_places", "1", "largest number of places of all their maps, 8 kB each; more are refused",
           1, 1'000'000);
     field(&P::absent_s, "absent_s", "s", "silence after which a robot counts as absent; its map is kept", 1.0, 3600.0);
@@ -60,8 +61,8 @@ struct Member {
   bool is_present = true;
   std::optional<std::int64_t> behind_since_ns;  ///< less was received than announced
   std::optional<std::int64_t> asked_ns;
-  int missed = 0;                 ///< changes asked for again
-  int contradictions = 0;         ///< contents unlike their digest, one after another
+  int missed = 0;          ///< changes asked for again
+  int contradictions = 0;  ///< contents unlike their digest, one after another
 };
 
 /// The other robots and replicas of their maps. Their messages may be lost, doubled, late, or wrong; what is unusable is

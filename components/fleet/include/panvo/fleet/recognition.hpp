@@ -34,10 +34,11 @@ struct RecognitionParameters {
           "places of other robots compared with a panorama; of more, each panorama is compared with the next ones", 1,
           100'000);
     field(&P::max_histogram_distance, "max_histogram_distance", "1", "T_h [Lu2015 5.1]", 0.0, 1.0);
-    field(&P::max_large_distance, "max_large_distance", "1",
-          "T_fl; other places have 0.9 +- 0.05. Below that of the position corrector, as no position narrows the search "
-          "and each candidate may cost a transmission",
-          0.0, 1.0);
+    field(
+        &P::max_large_distance, "max_large_distance", "1",
+        "T_fl; other places have 0.9 +- 0.05. Below that of the position corrector, as no position narrows the search "
+        "and each candidate may cost a transmission",
+        0.0, 1.0);
     field(&P::max_small_distance, "max_small_distance", "1", "T_fs, likewise", 0.0, 1.0);
     field(&P::max_verified, "max_verified", "1", "candidates per panorama whose geometry is verified", 1, 20);
     field(&P::max_keypoint_sets, "max_keypoint_sets", "1", "places whose keypoints are kept, 45 kB each", 1, 10'000);
