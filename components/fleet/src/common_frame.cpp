@@ -35,6 +35,22 @@ bool agrees(const MapTransform& around, const MapTransform& direct, double gate_
   return error.dot(covariance.ldlt().solve(error)) < gate_chi_square;
 }
 
+/// The map that most of the joined present robots use, of those that are joined and present themselves.
+MapId most_used(MapId own, const std::map<MapId, MapTransform>& own_from, const std::map<MapId, MapId>& used) {
+  std::map<MapId, int> count{{own, 0}};
+  for (const auto& [map, transform] : own_from) {
+    if (used.contains(map)) count[map] = 0;
+  }
+  for (const auto& [user, map] : used) {
+    if (count.contains(user) && count.contains(map)) ++count[map];
+  }
+  auto best = count.begin();
+  for (auto one = count.begin(); one != count.end(); ++one) {
+    if (one->second > best->second) best = one;
+  }
+  return best->first;
+}
+
 }  // namespace
 
 MapTransform operator*(const MapTransform& a_from_b, const MapTransform& b_from_c) {
@@ -46,7 +62,7 @@ MapTransform inverse(const MapTransform& a_from_b) {
   return {a_from_b.a_from_b.inverse(), vision::invert_covariance(a_from_b.a_from_b, a_from_b.covariance)};
 }
 
-CommonFrame common_frame(MapId own, std::vector<JoinedPair> joins, const std::set<MapId>& present,
+CommonFrame common_frame(MapId own, std::vector<JoinedPair> joins, const std::map<MapId, MapId>& used,
                          double gate_chi_square) {
   std::sort(joins.begin(), joins.end(), [](const JoinedPair& one, const JoinedPair& two) {
     return std::tuple(-one.agreeing, one.a, one.b) < std::tuple(-two.agreeing, two.a, two.b);
@@ -64,9 +80,7 @@ CommonFrame common_frame(MapId own, std::vector<JoinedPair> joins, const std::se
   }
   frame.own_from = connected_with(own, tree);
   frame.own_from.erase(own);
-  for (const auto& [map, own_from_map] : frame.own_from) {
-    if (map < frame.map && present.contains(map)) frame.map = map;
-  }
+  frame.map = most_used(own, frame.own_from, used);
   if (frame.map != own) frame.common_from_own = inverse(frame.own_from.at(frame.map));
   return frame;
 }

@@ -241,13 +241,13 @@ void Fleet::share_moves(std::int64_t now_ns) {
 }
 
 void Fleet::find_frame() {
-  auto present = members_.present();
-  present.insert(own_->id());
+  auto used = members_.frames_used();
+  used[own_->id()] = frame_.map;
   const auto* pose = trail_.latest();
   const auto from = pose ? view_point(*pose) : std::nullopt;
   const auto near = from ? from->own_place : own_->places().rbegin()->first;
   auto frame =
-      common_frame(own_->id(), evidence_.joined(maps(), own_->id(), near), present, parameters_.join.gate_chi_square);
+      common_frame(own_->id(), evidence_.joined(maps(), own_->id(), near), used, parameters_.join.gate_chi_square);
   if (frame.map != frame_.map) news_.push_back(fmt::format("the fleet's frame is that of map {}", to_text(frame.map)));
   frame_ = std::move(frame);
 }

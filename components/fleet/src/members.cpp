@@ -214,6 +214,14 @@ std::set<MapId> Members::present() const {
   return found;
 }
 
+std::map<MapId, MapId> Members::frames_used() const {
+  std::map<MapId, MapId> found;
+  for (const auto& [map, member] : members_) {
+    if (member.is_present) found[map] = member.last.common_map;
+  }
+  return found;
+}
+
 std::size_t Members::places() const {
   std::size_t count = 0;
   for (const auto& [map, member] : members_) count += member.map.places().size();

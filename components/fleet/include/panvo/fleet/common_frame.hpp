@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -17,7 +16,7 @@ struct JoinedPair {
   int agreeing = 0;        ///< sightings
 };
 
-/// The frame that joined maps share: that of the map with the smallest id among those of present robots.
+/// The frame that joined maps share: that of one of them.
 struct CommonFrame {
   MapId map = 0;
   MapTransform common_from_own;
@@ -25,10 +24,12 @@ struct CommonFrame {
   std::vector<std::pair<MapId, MapId>> contradictory;  ///< joins left out: they contradict stronger ones around a loop
 };
 
-/// The frame of the maps that are joined with `own`, directly or through others. Joins are taken in the order of their
-/// sightings; one that closes a loop is only compared: its squared Mahalanobis distance must be below `gate_chi_square`.
-/// Deterministic: robots that know the same joins and present maps choose the same frame.
-CommonFrame common_frame(MapId own, std::vector<JoinedPair> joins, const std::set<MapId>& present,
+/// The frame of the maps that are joined with `own`, directly or through others. `used`: for each map whose robot is
+/// present, also the own one, the map whose frame that robot uses now. The frame is that of the present map which most of
+/// the joined robots use, so that a robot that joins a fleet takes over its frame; of several, that with the smallest
+/// id. Joins are taken in the order of their sightings; one that closes a loop is only compared: its squared Mahalanobis
+/// distance must be below `gate_chi_square`. Deterministic: robots that know the same choose the same frame.
+CommonFrame common_frame(MapId own, std::vector<JoinedPair> joins, const std::map<MapId, MapId>& used,
                          double gate_chi_square);
 
 /// a_from_c = a_from_b * b_from_c and a_from_b = b_from_a^-1, with their covariances.

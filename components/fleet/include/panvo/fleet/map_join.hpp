@@ -19,8 +19,8 @@ struct JoinParameters {
   double gate_chi_square = 22.5;
   double position_sigma_m = 0.1;
   double rotation_sigma_deg = 0.5;
-  double drift_ratio = 0.015;
-  double drift_deg_per_m = 0.02;
+  double drift_ratio = 0.01;
+  double drift_deg_per_m = 0.005;
   double max_tilt_deg = 15.0;
 
   template <class Field>

@@ -91,6 +91,8 @@ class Members {
   const std::map<MapId, Member>& all() const noexcept { return members_; }
   const Member* find(MapId map) const;
   std::set<MapId> present() const;
+  /// For each present map, the map whose frame its robot uses.
+  std::map<MapId, MapId> frames_used() const;
   std::size_t places() const;
 
   /// What a user should know, since the last call: robots that came, left, restarted or caught up; maps started again.
