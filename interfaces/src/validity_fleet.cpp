@@ -15,21 +15,32 @@ void check_sender(Check& check, const std_msgs::msg::Header& header, const std::
   check.require(map != 0, "map", "is 0");
 }
 
-void check_sighting(Check& check, const panvo_msgs::msg::FleetSighting& sighting) {
+/// Of a place without settings: the sizes of its description are checked by the receiver, who knows the settings.
+void check_place(Check& check, const panvo_msgs::msg::PanoramicLandmark& place) {
+  check.require(place.keypoints().empty() && place.thumbnail().empty(), "places", "have keypoints or a thumbnail");
+  const auto problem = problem_of(place);
+  check.require(!problem, "places", "have an invalid landmark: " + problem.value_or(""));
+}
+
+}  // namespace
+
+Problem problem_of(const panvo_msgs::msg::FleetSighting& sighting) {
+  Check check;
   check.require(sighting.own_place() != 0 && sighting.seen_place() != 0 && sighting.seen_map() != 0, "sightings",
                 "name no place");
   check_pose(check, "sightings.own_from_seen.pose", sighting.own_from_seen().pose());
   check.measured_covariance("sightings.own_from_seen.covariance", sighting.own_from_seen().covariance());
   check.within("sightings.travelled_m", sighting.travelled_m(), 0.0, kMaxPath_m);
+  return check.problem();
 }
 
-/// Of a place without settings: the sizes of its description are checked by the receiver, who knows the settings.
-void check_place(Check& check, const panvo_msgs::msg::PanoramicLandmark& place) {
-  check.require(place.keypoints().empty() && place.thumbnail().empty(), "places", "have keypoints or a thumbnail");
-  if (const auto problem = problem_of(place)) check.require(false, "places", "have an invalid landmark: " + *problem);
+Problem problem_of(const panvo_msgs::msg::FleetPeer& peer) {
+  Check check;
+  check.name({"peers", "robot"}, peer.robot()).text({"peers", "reason"}, peer.reason());
+  check_pose(check, "peers.map_from_peer.pose", peer.map_from_peer().pose());
+  check.covariance("peers.map_from_peer.covariance", peer.map_from_peer().covariance());
+  return check.problem();
 }
-
-}  // namespace
 
 Problem problem_of(const panvo_msgs::msg::FleetMember& message) {
   Check check;
@@ -50,10 +61,10 @@ Problem problem_of(const panvo_msgs::msg::FleetPlaces& message) {
     if (!check.holds()) return check.problem();
     check_place(check, place);
   }
-  if (const auto problem = problem_of(message.moved())) check.require(false, "moved", "is invalid: " + *problem);
+  if (!check.holds()) return check.problem();
+  if (const auto problem = problem_of(message.moved())) return "moved is invalid: " + *problem;
   for (const auto& sighting : message.sightings()) {
-    if (!check.holds()) break;
-    check_sighting(check, sighting);
+    if (const auto problem = problem_of(sighting)) return problem;
   }
   return check.problem();
 }
@@ -85,11 +96,9 @@ Problem problem_of(const panvo_msgs::msg::FleetState& message) {
   check.at_most("peers", message.peers().size(), kMaxPeers);
   check_pose(check, "common_from_map.pose", message.common_from_map().pose());
   check.covariance("common_from_map.covariance", message.common_from_map().covariance());
+  if (!check.holds()) return check.problem();
   for (const auto& peer : message.peers()) {
-    if (!check.holds()) break;
-    check.name({"peers", "robot"}, peer.robot()).text({"peers", "reason"}, peer.reason());
-    check_pose(check, "peers.map_from_peer.pose", peer.map_from_peer().pose());
-    check.covariance("peers.map_from_peer.covariance", peer.map_from_peer().covariance());
+    if (const auto problem = problem_of(peer)) return problem;
   }
   return check.problem();
 }

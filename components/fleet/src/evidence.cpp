@@ -17,29 +17,43 @@ CrossSighting swapped(const CrossSighting& sighting) {
           !sighting.by_a};
 }
 
+std::array<std::uint64_t, 4> versions_of(const SharedMap& one, const SharedMap& other) {
+  return {one.session(), one.version(), other.session(), other.version()};
+}
+
 }  // namespace
 
 void Evidence::update(const std::vector<const SharedMap*>& maps, int most) {
+  struct Stale {
+    std::uint64_t decided;
+    const SharedMap *one, *other;
+  };
+  std::vector<Stale> stale;
   std::map<Pair, Decision> kept;
-  int count = 0;
   for (const auto* one : maps) {
     for (const auto* other : maps) {
       if (one->id() >= other->id()) continue;
       const Pair pair{one->id(), other->id()};
-      const std::pair versions{one->version(), other->version()}, sessions{one->session(), other->session()};
       const auto known = decisions_.find(pair);
-      const bool is_current =
-          known != decisions_.end() && known->second.versions == versions && known->second.sessions == sessions;
-      if (is_current || (count >= most && known != decisions_.end())) {
-        kept.emplace(pair, std::move(known->second));
-        continue;
+      const bool is_known = known != decisions_.end();
+      if (!is_known || known->second.versions != versions_of(*one, *other)) {
+        stale.push_back({is_known ? known->second.decided : 0, one, other});
       }
-      if (count++ >= most) continue;
-      auto& decision = kept[pair] = {versions, sessions, decide(*one, *other, parameters_)};
-      report(pair, known == decisions_.end() ? MapJoin{} : known->second.join, decision.join);
+      if (is_known) kept.emplace(pair, std::move(known->second));
     }
   }
   decisions_ = std::move(kept);
+  // Those decided longest ago first, so that a map that changes all the time does not keep the others waiting.
+  std::stable_sort(stale.begin(), stale.end(),
+                   [](const Stale& one, const Stale& other) { return one.decided < other.decided; });
+  stale.resize(std::min(stale.size(), static_cast<std::size_t>(most)));
+  for (const auto& [decided, one, other] : stale) {
+    const Pair pair{one->id(), other->id()};
+    auto& decision = decisions_[pair];
+    auto join = decide(*one, *other, parameters_);
+    report(pair, decision.join, join);
+    decision = {versions_of(*one, *other), ++count_, std::move(join)};
+  }
 }
 
 void Evidence::report(const Pair& pair, const MapJoin& before, const MapJoin& now) {

@@ -24,12 +24,10 @@ constexpr std::size_t kMovesPerMessage = 50;     // 17 kB
 constexpr std::size_t kMaxAskedFor = 32;
 constexpr std::size_t kMaxPending = 4;  // places whose keypoints were asked for and not received
 constexpr std::size_t kMaxEarly = 10'000;
-constexpr std::uint32_t kSlotsPerMap = 32;
 constexpr int kMaxViewsOfPair = 3;
 constexpr double kViewStep_m = 2.0;
-constexpr std::uint32_t kMaxSightedMaps = 64;
 constexpr double kAnchorRadius_m = 60.0;
-constexpr int kDecisionsPerCall = 16;
+constexpr int kDecisionsPerCall = 3;  // 20 ms each with the most sightings
 
 }  // namespace
 
@@ -161,7 +159,7 @@ void Fleet::share(Sighting sighting) {
     news_.push_back(fmt::format("place {} of map {} was recognised, the first one of that map: {} points agree",
                                 sighting.seen.place, to_text(sighting.seen.map), sighting.inliers));
   }
-  if (!sighted_.contains(sighting.seen.map) && count >= kMaxSightedMaps) return;
+  if (!sighted_.contains(sighting.seen.map) && count >= kMaxSlots / kSlotsPerMap) return;
   auto& ring = sighted_.try_emplace(sighting.seen.map, Ring{count, 0}).first->second;
   sighting.slot = ring.index * kSlotsPerMap + ring.used++ % kSlotsPerMap;
   own_->add(sighting);

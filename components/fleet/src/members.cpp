@@ -161,6 +161,9 @@ std::optional<std::string> Members::fault_of(const MapChanges& changes) const {
       return fmt::format("place {} does not fit the measurement matrices or the histogram", place.id);
     }
   }
+  for (const auto& sighting : changes.sightings) {
+    if (sighting.slot >= kMaxSlots) return fmt::format("there are more than {} sightings", kMaxSlots);
+  }
   return std::nullopt;
 }
 

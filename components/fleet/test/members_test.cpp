@@ -199,6 +199,13 @@ TEST_F(FleetMembers, StayBoundedAgainstTooManyPlaces) {
   EXPECT_EQ(few.places(), 0U);
 }
 
+TEST_F(FleetMembers, StayBoundedAgainstTooManySightings) {
+  announce();
+  owner_.add(Sighting{kMaxSlots, 1, {9, 1}, flat(0, 0, 0), covariance_of(0.1, 0.1), 20, 0.0});
+  EXPECT_THAT(send(0), Optional(HasSubstr("more than 2048 sightings")));
+  EXPECT_TRUE(replica().sightings().empty());
+}
+
 TEST_F(FleetMembers, IgnoreChangesOfARobotThatHasNotAnnouncedItself) {
   owner_.add(place_at(1, flat(0, 0, 0)));
   EXPECT_EQ(send(0), std::nullopt);

@@ -24,6 +24,8 @@ Problem problem_of(const panvo_msgs::msg::FleetPlaces& message);
 Problem problem_of(const panvo_msgs::msg::FleetRequest& message);
 Problem problem_of(const panvo_msgs::msg::FleetKeypoints& message);
 Problem problem_of(const panvo_msgs::msg::FleetState& message);
+Problem problem_of(const panvo_msgs::msg::FleetSighting& sighting);
+Problem problem_of(const panvo_msgs::msg::FleetPeer& peer);
 
 /// Stamps of other robots are by other clocks, which may be hours off: nobody compares them.
 template <>

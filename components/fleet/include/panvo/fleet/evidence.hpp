@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -39,7 +41,8 @@ class Evidence {
 
  private:
   struct Decision {
-    std::pair<std::uint64_t, std::uint64_t> versions, sessions;
+    std::array<std::uint64_t, 4> versions{};  ///< session and version of each map
+    std::uint64_t decided = 0;                ///< number of this decision
     MapJoin join;
   };
   using Pair = std::pair<MapId, MapId>;  // the smaller id first
@@ -49,6 +52,7 @@ class Evidence {
   const JoinParameters parameters_;
   std::map<Pair, Decision> decisions_;
   std::vector<std::string> news_;
+  std::uint64_t count_ = 0;
   int made_ = 0, undone_ = 0;
 };
 

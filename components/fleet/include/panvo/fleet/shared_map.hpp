@@ -17,6 +17,10 @@ namespace panvo::fleet {
 /// Unique among all robots and days: a hash of the robot's name and of the map's first place. 0: none.
 using MapId = std::uint64_t;
 
+/// Slots of sightings in a map: 64 other maps, 32 sightings each.
+inline constexpr std::uint32_t kSlotsPerMap = 32;
+inline constexpr std::uint32_t kMaxSlots = 64 * kSlotsPerMap;
+
 /// Sixteen hexadecimal digits.
 std::string to_text(MapId id);
 
