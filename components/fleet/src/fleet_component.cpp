@@ -97,6 +97,7 @@ class FleetComponent final : public runtime::Component {
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_odometry(*message); });
+    context.input(topics::kLocalizationState, [this](const auto& message) { on_state(message->state()); });
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(message); });
     context.input(topics::kFleetMembers, [this](const auto& message) { on_member(*message); });
     context.input(topics::kFleetPlaces, [this](const auto& message) { on_places(*message); });
@@ -130,7 +131,14 @@ class FleetComponent final : public runtime::Component {
                                   poses.reason());
   }
 
+  /// A pose that is not known in the own map says nothing of other maps.
+  void on_state(std::uint8_t state) {
+    using namespace panvo_msgs::msg::LocalizationState_Constants;
+    is_located_ = state != UNLOCATED && state != LOST;
+  }
+
   void on_odometry(const nav_msgs::msg::Odometry& message) {
+    if (!is_located_) return;
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return;
     const auto& linear = message.twist().twist().linear();
@@ -292,6 +300,7 @@ class FleetComponent final : public runtime::Component {
 
   Eigen::Isometry3d base_from_panorama_ = Eigen::Isometry3d::Identity();
   std::shared_ptr<const sensor_msgs::msg::Image> waiting_;
+  bool is_located_ = true;
   ByteCount sent_, received_;
   std::uint32_t refused_ = 0;
   std::string last_refusal_;

@@ -92,19 +92,21 @@ std::vector<Ends> ends_of(const SharedMap& a, const SharedMap& b, const std::vec
   return ends;
 }
 
-bool is_upright(const CrossSighting& sighting, const Ends& ends, double max_tilt_deg) {
+/// Whether a sighting is precise enough to contradict others, and both maps upright according to it.
+bool is_usable(const CrossSighting& sighting, const Ends& ends, const JoinParameters& parameters) {
+  if (vision::horizontal_sigma(sighting.covariance) > parameters.max_sigma_m) return false;
   const Eigen::Matrix3d rotation =
       ends.a->map_from_base.linear() * sighting.a_from_b.linear() * ends.b->map_from_base.linear().transpose();
-  return rotation(2, 2) >= std::cos(max_tilt_deg * vision::kDegree);
+  return rotation(2, 2) >= std::cos(parameters.max_tilt_deg * vision::kDegree);
 }
 
 std::vector<NodeSet> consistent_pairs(const std::vector<CrossSighting>& sightings, const std::vector<Ends>& ends,
                                       const JoinParameters& parameters) {
   std::vector<NodeSet> neighbours(sightings.size(), 0);
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    if (!is_upright(sightings[i], ends[i], parameters.max_tilt_deg)) continue;
+    if (!is_usable(sightings[i], ends[i], parameters)) continue;
     for (std::size_t j = 0; j < i; ++j) {
-      if (!is_upright(sightings[j], ends[j], parameters.max_tilt_deg)) continue;
+      if (!is_usable(sightings[j], ends[j], parameters)) continue;
       if (!(loop_error(sightings[j], ends[j], sightings[i], ends[i], parameters) < parameters.gate_chi_square))
         continue;
       neighbours[i] |= NodeSet{1} << j;

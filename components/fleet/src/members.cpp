@@ -57,7 +57,8 @@ std::optional<std::string> Members::objection(const Announcement& said, std::int
   const auto* member = known(said.robot);
   const bool is_other_process = member && (member->map.session() != said.session || member->map.id() != said.map);
   if (is_other_process && now_ns - member->heard_ns < ns(parameters_.silent_s)) {
-    return fmt::format("two robots are named {}: give each a name of its own", said.robot);
+    return fmt::format("two robots are named {}: give each a name of its own, unless it was restarted just now",
+                       said.robot);
   }
   if (const auto* owned = find(said.map); owned && owned->robot != said.robot) {
     return fmt::format("{} announces the map of {}", said.robot, owned->robot);

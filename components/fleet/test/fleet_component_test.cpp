@@ -187,6 +187,18 @@ TEST_F(FleetOfComponents, NamesTwoRobotsOfOneName) {
   EXPECT_TRUE(harness_.log_contains("another robot is also named same: give each a name of its own"));
 }
 
+TEST_F(FleetOfComponents, KeepsQuietAboutAPoseThatIsNotKnownInItsMap) {
+  load("one", "one");
+  drives_->pause(0.0, 8.0);
+  drives_->drive("one", flat(0, 0, 0), 1.0);
+  panvo_msgs::msg::LocalizationState state;
+  state.state(panvo_msgs::msg::LocalizationState_Constants::UNLOCATED);
+  harness_.publish(interfaces::Topic<panvo_msgs::msg::LocalizationState>{"/one/localization/state"}, state);
+  const auto& poses = harness_.collect(interfaces::Topic<nav_msgs::msg::Odometry>{"/one/odometry/fleet"});
+  ASSERT_THAT(harness_.container().run(), IsEmpty());
+  EXPECT_TRUE(poses.empty());
+}
+
 TEST_F(FleetOfComponents, SurvivesAnInvalidMessage) {
   load("one", "one");
   drives_->pause(0.0, 8.0);

@@ -148,6 +148,16 @@ TEST(MapJoin, RefusesMapsThatAreTilted) {
   EXPECT_FALSE(decide_on(maps).is_joined);
 }
 
+TEST(MapJoin, IsNotMadeByVagueSightings) {
+  TwoMaps maps;
+  for (const std::uint32_t id : {1U, 2U, 3U}) {
+    auto sighting = maps.sighting(id, {TwoMaps::kB, id}, Eigen::Isometry3d::Identity());
+    sighting.covariance = covariance_of(5.0, 0.1);
+    maps.a.add(sighting);
+  }
+  EXPECT_FALSE(decide_on(maps).is_joined);
+}
+
 TEST(MapJoin, AllowsForTheDriftBetweenPlacesThatAreFarApart) {
   // Map b is bent: its places are off by 1 % of their distance along the road.
   TwoMaps maps;

@@ -22,6 +22,7 @@ struct JoinParameters {
   double drift_ratio = 0.01;
   double drift_deg_per_m = 0.005;
   double max_tilt_deg = 15.0;
+  double max_sigma_m = 3.0;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -52,6 +53,8 @@ struct JoinParameters {
           0.0, 1.0);
     field(&P::drift_deg_per_m, "drift_deg_per_m", "deg/m", "the same of the rotation", 0.0, 10.0);
     field(&P::max_tilt_deg, "max_tilt_deg", "deg", "largest tilt between two maps, which both have z up", 0.0, 180.0);
+    field(&P::max_sigma_m, "max_sigma_m", "m",
+          "largest standard deviation of a sighting's position: a vaguer one would agree with any other", 0.1, 100.0);
   }
 };
 
