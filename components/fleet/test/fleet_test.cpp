@@ -218,6 +218,7 @@ TEST(Fleet, SendsNoMoreThanItsRate) {
   std::size_t bytes = 0;
   for (int tick = 0; tick < 500; ++tick, now_ns += kSecond / 10) {
     one.fleet.advance(now_ns);
+    one.fleet.answer("two", {one.fleet.own()->id(), std::nullopt, {1, 2, 3, 4, 5, 6}}, now_ns);
     while (const auto message = one.fleet.next(now_ns)) {
       const std::size_t size = std::holds_alternative<Announcement>(*message) ? 100 : 30'000;
       bytes += size;
@@ -226,7 +227,7 @@ TEST(Fleet, SendsNoMoreThanItsRate) {
   }
   // what was begun before the rate was used up, 50 s at the rate, and the announcements
   EXPECT_LE(bytes, 1000U + 30'000U + 50'000U + 51U * 100U);
-  EXPECT_GE(bytes, 30'000U + 51U * 100U);
+  EXPECT_GE(bytes, 50'000U) << "there was always something to send";
 }
 
 TEST(Fleet, AnswersOneRepetitionASecondToARobot) {
