@@ -80,6 +80,9 @@ PLACES = floor("places", "vision landmarks landmark_builder position_corrector d
 # places of a stereo camera: their algorithm, and its component
 STEREO_PLACES = floor("stereo places", "vision landmarks position_corrector places", "eigen, opencv", False)
 STEREO_PLACES_WRAPPER = floor("stereo places' wrapper", "runtime interfaces conversions vision landmarks position_corrector", "messages, eigen, opencv", False)
+# robots that share places; recognition as in the position corrector
+FLEET = floor("fleet", "vision landmarks position_corrector", "eigen, opencv", False)
+FLEET_WRAPPER = floor("fleet's component", "runtime interfaces conversions vision landmarks position_corrector", "messages, eigen, opencv", False)
 EVALUATION = None  # may include anything
 
 # Folders that do not consist of an algorithm and its wrapper; the first match counts.
@@ -105,6 +108,13 @@ FLOORS = [
     ("components/places", PLACES),
     ("components/stereo_places/src/stereo_places_component.cpp", STEREO_PLACES_WRAPPER),
     ("components/stereo_places", STEREO_PLACES),
+    ("components/fleet/include", FLEET),
+    ("components/fleet/src/fleet_component.cpp", FLEET_WRAPPER),
+    ("components/fleet/src/fleet_messages.cpp", FLEET_WRAPPER),
+    ("components/fleet/src/fleet_messages.hpp", FLEET_WRAPPER),
+    ("components/fleet/src/fleet_pose_publisher.cpp", FLEET_WRAPPER),
+    ("components/fleet/src/fleet_pose_publisher.hpp", FLEET_WRAPPER),
+    ("components/fleet", FLEET),
     ("components/evaluation", EVALUATION),
     ("components/python", PYTHON),
     ("drivers/simulated_world", SIMULATED_WORLD),

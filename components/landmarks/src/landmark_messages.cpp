@@ -27,7 +27,18 @@ FeatureMessages to_messages(const std::vector<AdaptiveFeature>& features) {
   return messages;
 }
 
-std::vector<panvo_msgs::msg::LandmarkKeypoint> to_messages(const std::vector<Keypoint>& keypoints) {
+std::vector<AdaptiveFeature> to_features(const FeatureMessages& messages) {
+  std::vector<AdaptiveFeature> features;
+  features.reserve(messages.size());
+  for (const auto& message : messages) {
+    features.push_back({message.row(), message.value(), message.scale(), message.weight()});
+  }
+  return features;
+}
+
+}  // namespace
+
+std::vector<panvo_msgs::msg::LandmarkKeypoint> to_keypoint_messages(const std::vector<Keypoint>& keypoints) {
   std::vector<panvo_msgs::msg::LandmarkKeypoint> messages(keypoints.size());
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     messages[i].bearing(to_array(keypoints[i].bearing));
@@ -40,15 +51,6 @@ std::vector<panvo_msgs::msg::LandmarkKeypoint> to_messages(const std::vector<Key
   return messages;
 }
 
-std::vector<AdaptiveFeature> to_features(const FeatureMessages& messages) {
-  std::vector<AdaptiveFeature> features;
-  features.reserve(messages.size());
-  for (const auto& message : messages) {
-    features.push_back({message.row(), message.value(), message.scale(), message.weight()});
-  }
-  return features;
-}
-
 std::vector<Keypoint> to_keypoints(const std::vector<panvo_msgs::msg::LandmarkKeypoint>& messages) {
   std::vector<Keypoint> keypoints;
   keypoints.reserve(messages.size());
@@ -58,8 +60,6 @@ std::vector<Keypoint> to_keypoints(const std::vector<panvo_msgs::msg::LandmarkKe
   }
   return keypoints;
 }
-
-}  // namespace
 
 panvo_msgs::msg::PanoramicLandmark to_message(const PanoramicLandmark& landmark, const DescriptionSettings& settings,
                                               const std::string& map_frame) {
@@ -75,7 +75,7 @@ panvo_msgs::msg::PanoramicLandmark to_message(const PanoramicLandmark& landmark,
   message.histogram(landmark.description.histogram);
   message.large_features(to_messages(landmark.description.large));
   message.small_features(to_messages(landmark.description.small));
-  message.keypoints(to_messages(landmark.keypoints));
+  message.keypoints(to_keypoint_messages(landmark.keypoints));
   message.thumbnail(landmark.thumbnail);
   return message;
 }

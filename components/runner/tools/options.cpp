@@ -179,7 +179,13 @@ runtime::SystemDescription describe_system(const RunOptions& options) {
     player.parameters["directory"] = {{std::filesystem::absolute(directory).string()}, false, player.where};
     // Same namespace as the first component, so a system in a namespace plays data sets unchanged.
     auto& components = system.containers.front().components;
-    if (!components.empty()) player.name_space = components.front().name_space;
+    if (!components.empty()) {
+      player.name_space = components.front().name_space;
+      for (const char* topic : {"/tf", "/tf_static"}) {  // its transforms, too
+        const auto found = components.front().remaps.find(topic);
+        if (found != components.front().remaps.end()) player.remaps.insert(*found);
+      }
+    }
     components.push_back(std::move(player));  // last: a bag player skips topics that others publish
   };
   if (!options.dataset.empty()) {

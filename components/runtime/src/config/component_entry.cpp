@@ -74,6 +74,8 @@ class ParameterEntries {
   std::vector<std::string> entered_;
 };
 
+}  // namespace
+
 std::string read_topic(YamlMap& map, const std::string& key, Findings& findings) {
   auto topic = map.required(key, "write {from: TOPIC, to: TOPIC}");
   if (const auto wrong = topic_name_problem(topic); wrong && !topic.empty()) {
@@ -81,8 +83,6 @@ std::string read_topic(YamlMap& map, const std::string& key, Findings& findings)
   }
   return topic;
 }
-
-}  // namespace
 
 ComponentDescription read_component(YamlMap& map, const Scope& scope, OnError on_error, Findings& findings) {
   ComponentDescription component;
@@ -112,6 +112,7 @@ ComponentDescription read_component(YamlMap& map, const Scope& scope, OnError on
     }
     remap.finish();
   }
+  component.remaps.insert(scope.remaps.begin(), scope.remaps.end());  // those of the component prevail
   map.finish({"extra_arg"});
   return component;
 }

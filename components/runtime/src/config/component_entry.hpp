@@ -17,6 +17,9 @@ WrittenValues read_parameters(YamlMap& map, const std::string& node, const Scope
 /// Reads and checks the `name` of a node or container.
 std::string read_name(YamlMap& map, const std::string& remedy, Findings& findings);
 
+/// Reads and checks the topic name at a key of a remap.
+std::string read_topic(YamlMap& map, const std::string& key, Findings& findings);
+
 /// Absolute namespace of an entry: its `namespace` within the namespace of the scope.
 std::string read_name_space(YamlMap& map, const Scope& scope, Findings& findings);
 

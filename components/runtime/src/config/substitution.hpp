@@ -14,6 +14,7 @@ struct Scope {
   std::filesystem::path file;
   std::string name_space = "/";
   std::map<std::string, std::string> variables{};
+  std::map<std::string, std::string> remaps{};  // of all components that follow
 };
 
 /// A failed substitution, without its position in the file.

@@ -22,7 +22,8 @@ constexpr int kMaxDelayS = 3600;
 constexpr int kMaxImageMb = 64;
 constexpr int kMaxMessageMb = 2000;  // Fast DDS counts the bytes of a message in 31 bits
 constexpr int kMaxRateHz = 1'000'000;
-const std::vector<std::string> kActions = {"node_container", "arg", "let", "include", "group", "push_ros_namespace"};
+const std::vector<std::string> kActions = {"node_container",     "arg",      "let", "include", "group",
+                                           "push_ros_namespace", "set_remap"};
 
 class SystemReader {
  public:
@@ -121,6 +122,10 @@ class SystemReader {
       map.finish();
     } else if (name == "include") {
       read_include(map, scope);
+    } else if (name == "set_remap") {
+      const auto from = read_topic(map, "from", findings_);
+      scope.remaps[from] = read_topic(map, "to", findings_);
+      map.finish();
     } else {
       scope.name_space = read_name_space(map, scope, findings_);
       map.finish();

@@ -88,6 +88,25 @@ TEST_F(SystemFile, GroupsHoldTheirNamespaceToTheirEnd) {
   EXPECT_EQ(system.containers[2].name_space, "/");
 }
 
+TEST_F(SystemFile, RemapsTopicsOfAllComponentsThatFollowToTheEndOfTheGroup) {
+  const auto system = read_system_file(folder_.write("stereo.yaml", R"(launch:
+- group:
+  - set_remap: {from: /tf, to: tf}
+  - set_remap: {from: image, to: picture}
+  - node_container:
+      name: a
+      composable_node:
+      - {pkg: p, plugin: P, name: one}
+      - {pkg: p, plugin: P, name: two, remap: [{from: image, to: photo}]}
+- node_container: {name: b, composable_node: [{pkg: p, plugin: P, name: three}]}
+)"));
+  const std::map<std::string, std::string> of_all{{"/tf", "tf"}, {"image", "picture"}};
+  EXPECT_EQ(system.containers[0].components[0].remaps, of_all);
+  EXPECT_EQ(system.containers[0].components[1].remaps.at("/tf"), "tf");
+  EXPECT_EQ(system.containers[0].components[1].remaps.at("image"), "photo");
+  EXPECT_TRUE(system.containers[1].components[0].remaps.empty());
+}
+
 TEST_F(SystemFile, IncludesOthersWithArguments) {
   folder_.write("parts/odometry.yaml", R"(launch:
 - arg: {name: front_end, default: klt}

@@ -24,6 +24,10 @@ panvo_msgs::msg::PanoramicLandmark to_message(const PanoramicLandmark& landmark,
 conversions::Result<PanoramicLandmark> to_landmark(const panvo_msgs::msg::PanoramicLandmark& message,
                                                    const DescriptionSettings& settings);
 
+/// Keypoints alone, as sent between robots; the receiver's message has been checked by its rules.
+std::vector<panvo_msgs::msg::LandmarkKeypoint> to_keypoint_messages(const std::vector<Keypoint>& keypoints);
+std::vector<Keypoint> to_keypoints(const std::vector<panvo_msgs::msg::LandmarkKeypoint>& messages);
+
 /// Optimised landmark poses. The reason is the result of interfaces::problem_of().
 conversions::Result<std::vector<LandmarkPose>> to_landmark_poses(const panvo_msgs::msg::LandmarkPoses& message);
 

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "painted_road.hpp"
+#include "panvo/conversions/image.hpp"
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/fleet_topics.hpp"
+#include "panvo/interfaces/topics.hpp"
+#include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/runtime/testing.hpp"
+
+namespace panvo::fleet {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr int kPlaces = 5;
+constexpr double kBegin_s = 1'700'000'000.0;
+
+std::int64_t stamp_ns(double t_s) { return std::llround(1e9 * (kBegin_s + t_s)); }
+
+struct Names {
+  explicit Names(const std::string& robot)
+      : landmarks("/" + robot + "/landmarks"),
+        odometry("/" + robot + "/odometry/enhanced"),
+        panorama("/" + robot + "/panorama/image"),
+        fleet("/" + robot + "/odometry/fleet"),
+        state("/" + robot + "/fleet/state") {}
+  std::string landmarks, odometry, panorama, fleet, state;
+};
+
+/// Plays what the other components of several robots publish.
+class Drives final : public runtime::Component, public runtime::Source {
+ public:
+  explicit Drives(runtime::Context& context) : context_(context), tf_(context.output(topics::kTfStatic)) {
+    context.source(*this);
+    at(0.0, [this] {
+      tf2_msgs::msg::TFMessage message;
+      auto& transform = message.transforms().emplace_back();
+      transform.header().frame_id("base_link");
+      transform.child_frame_id("panorama");
+      transform.transform(conversions::to_transform(PaintedRoad::base_from_panorama()));
+      tf_.publish(message);
+    });
+  }
+
+  /// One place a second, from `begin_s` on; `clock_s`: offset of the robot's clock.
+  void drive(const std::string& robot, const Eigen::Isometry3d& map_from_world, double begin_s, double clock_s = 0.0) {
+    static const PaintedRoad road(kPlaces);
+    static const landmarks::PanoramaDescriber describer({}, 1);
+    auto& names = names_.try_emplace(robot, robot).first->second;
+    auto landmarks = context_.output(interfaces::Topic<panvo_msgs::msg::PanoramicLandmark>{names.landmarks});
+    auto odometry = context_.output(interfaces::Topic<nav_msgs::msg::Odometry>{names.odometry});
+    auto panoramas = context_.output(interfaces::Topic<sensor_msgs::msg::Image>{names.panorama});
+    for (int place = 0; place < kPlaces; ++place) {
+      const double t_s = begin_s + place;
+      auto landmark = road.landmark(place, static_cast<std::uint32_t>(place) + 1, map_from_world, describer);
+      landmark.stamp_ns = stamp_ns(t_s + clock_s);
+      const auto landmark_message = landmarks::to_message(
+          landmark, landmarks::description_settings(landmarks::DescriptionParameters{}, 1), "map");
+      auto image = conversions::make_image(landmark.stamp_ns, "panorama", "mono8", 1080, 540);
+      road.panorama(place).copyTo(conversions::pixels(*image));
+      nav_msgs::msg::Odometry pose;
+      pose.header().stamp(conversions::to_stamp(landmark.stamp_ns));
+      pose.header().frame_id("map");
+      pose.child_frame_id("base_link");
+      pose.pose().pose(conversions::to_pose(landmark.map_from_base));
+      pose.pose().covariance(conversions::to_array(landmark.covariance));
+      pose.twist().twist().linear().x(10.0);
+      at(t_s, [=]() mutable {
+        landmarks.publish(landmark_message);
+        panoramas.publish(*image);  // before its pose
+        odometry.publish(pose);
+      });
+    }
+  }
+  void at(double t_s, std::function<void()> event) { events_.emplace(stamp_ns(t_s), std::move(event)); }
+  /// Time passes; timers run.
+  void pause(double from_s, double until_s) {
+    for (double t_s = from_s; t_s < until_s; t_s += 0.2) at(t_s, [] {});
+  }
+
+  std::optional<std::int64_t> next_stamp_ns() override {
+    return events_.empty() ? std::nullopt : std::optional(events_.begin()->first);
+  }
+  void emit() override {
+    const auto event = events_.extract(events_.begin());
+    event.mapped()();
+  }
+  Progress progress() const override { return {}; }
+
+ private:
+  runtime::Context& context_;
+  runtime::Output<tf2_msgs::msg::TFMessage> tf_;
+  std::map<std::string, Names> names_;
+  std::multimap<std::int64_t, std::function<void()>> events_;
+};
+
+class FleetOfComponents : public testing::Test {
+ protected:
+  void SetUp() override {
+    runtime::ComponentDescription description;
+    description.name = "drives";
+    description.name_space = "/";
+    harness_.container().add(description, [this](runtime::Context& context) {
+      auto made = std::make_unique<Drives>(context);
+      drives_ = made.get();
+      return made;
+    });
+  }
+
+  void load(const std::string& name_space, const std::string& robot) {
+    runtime::ComponentDescription description;
+    description.package = "panvo_fleet";
+    description.plugin = "FleetComponent";
+    description.name = "fleet_" + name_space;
+    description.name_space = "/" + name_space;
+    description.parameters["robot"] = {.items = {robot}, .is_list = false, .where = {"test", 0}};
+    harness_.container().load(description);
+  }
+
+  runtime::ComponentHarness harness_;
+  Drives* drives_ = nullptr;
+};
+
+TEST_F(FleetOfComponents, SharesOneFrameAmongThreeRobots) {
+  const std::map<std::string, Eigen::Isometry3d> maps{
+      {"one", flat(0, 0, 0)}, {"two", flat(9, 4, 1)}, {"three", flat(-7, 1, -2)}};
+  for (const auto& [robot, map_from_world] : maps) load(robot, robot);
+  drives_->pause(0.0, 20.0);
+  drives_->drive("one", maps.at("one"), 1.0);
+  drives_->drive("two", maps.at("two"), 7.0, 3600.0);  // its clock is an hour ahead
+  drives_->drive("three", maps.at("three"), 13.0);
+  std::map<std::string, const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>*> poses;
+  std::map<std::string, const std::vector<std::shared_ptr<const panvo_msgs::msg::FleetState>>*> states;
+  for (const auto& [robot, map_from_world] : maps) {
+    static std::map<std::string, Names> names;
+    const auto& own = names.try_emplace(robot, robot).first->second;
+    poses[robot] = &harness_.collect(interfaces::Topic<nav_msgs::msg::Odometry>{own.fleet});
+    states[robot] = &harness_.collect(interfaces::Topic<panvo_msgs::msg::FleetState>{own.state});
+  }
+  ASSERT_THAT(harness_.container().run(), IsEmpty());
+
+  const auto& last = *states["three"]->back();
+  ASSERT_EQ(last.peers().size(), 2U);
+  for (const auto& [robot, map_from_world] : maps) {
+    const auto& state = *states[robot]->back();
+    EXPECT_EQ(state.common_map(), last.common_map()) << robot;
+    for (const auto& peer : state.peers()) {
+      EXPECT_TRUE(peer.joined()) << robot << " with " << peer.robot() << ": " << peer.reason();
+      EXPECT_EQ(peer.places(), static_cast<std::uint32_t>(kPlaces)) << robot;
+    }
+    EXPECT_EQ(state.refused(), 0U) << state.last_refusal();
+    EXPECT_GT(state.bytes_sent(), 30'000U);
+  }
+  // all three end at the same place: their last poses in the frame of all are equal once all are joined
+  const auto final_of = [&](const std::string& robot) {
+    const auto common = conversions::to_isometry(states[robot]->back()->common_from_map().pose());
+    return *common * maps.at(robot) * PaintedRoad::world_from_base(kPlaces - 1);
+  };
+  EXPECT_LT(vision::pose_error(final_of("one"), final_of("two")).norm(), 0.1);
+  EXPECT_LT(vision::pose_error(final_of("one"), final_of("three")).norm(), 0.1);
+  const auto published = conversions::to_isometry(poses["three"]->back()->pose().pose());
+  ASSERT_TRUE(published);
+  EXPECT_LT(vision::pose_error(*published, final_of("three")).norm(), 0.3) << "joined while it drove";
+  EXPECT_EQ(poses["three"]->back()->header().frame_id(), "fleet");
+}
+
+TEST_F(FleetOfComponents, NamesTwoRobotsOfOneName) {
+  load("a", "same");
+  load("b", "same");
+  drives_->pause(0.0, 12.0);
+  drives_->drive("a", flat(0, 0, 0), 1.0);
+  drives_->drive("b", flat(0, 0, 0), 6.5);
+  ASSERT_THAT(harness_.container().run(), IsEmpty());
+  EXPECT_TRUE(harness_.log_contains("another robot is also named same: give each a name of its own"));
+}
+
+TEST_F(FleetOfComponents, KeepsQuietAboutAPoseThatIsNotKnownInItsMap) {
+  load("one", "one");
+  drives_->pause(0.0, 8.0);
+  drives_->drive("one", flat(0, 0, 0), 1.0);
+  panvo_msgs::msg::LocalizationState state;
+  state.state(panvo_msgs::msg::LocalizationState_Constants::UNLOCATED);
+  harness_.publish(interfaces::Topic<panvo_msgs::msg::LocalizationState>{"/one/localization/state"}, state);
+  const auto& poses = harness_.collect(interfaces::Topic<nav_msgs::msg::Odometry>{"/one/odometry/fleet"});
+  ASSERT_THAT(harness_.container().run(), IsEmpty());
+  EXPECT_TRUE(poses.empty());
+}
+
+TEST_F(FleetOfComponents, SurvivesAnInvalidMessage) {
+  load("one", "one");
+  drives_->pause(0.0, 8.0);
+  drives_->drive("one", flat(0, 0, 0), 1.0);
+  panvo_msgs::msg::FleetMember other;
+  other.robot("other");
+  other.map(5);
+  other.settings("patches=300\n");
+  harness_.publish(topics::kFleetMembers, other);
+  const auto& states = harness_.collect(interfaces::Topic<panvo_msgs::msg::FleetState>{"/one/fleet/state"});
+  ASSERT_THAT(harness_.container().run(), IsEmpty());
+  EXPECT_EQ(states.back()->refused(), 1U);
+  EXPECT_THAT(states.back()->last_refusal(), HasSubstr("other describes places with other settings"));
+  EXPECT_TRUE(states.back()->peers().empty());
+}
+
+}  // namespace
+}  // namespace panvo::fleet
