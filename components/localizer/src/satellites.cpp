@@ -113,9 +113,10 @@ void Satellites::publish(std::int64_t stamp_ns, const std::string& base_frame) {
   enhanced_.publish(to_fix(localizer_.latest_in_enu(), *plane_, stamp_ns, base_frame));
   geometry_msgs::msg::TransformStamped transform;
   transform.header().stamp(conversions::to_stamp(stamp_ns));
-  transform.header().frame_id(parameters_.enu_frame);
-  transform.child_frame_id(parameters_.map_frame);
-  transform.transform(conversions::to_transform(localizer_.map_from_enu().map_from_base.inverse()));
+  // As a child: the map may have another parent, such as the frame of a fleet.
+  transform.header().frame_id(parameters_.map_frame);
+  transform.child_frame_id(parameters_.enu_frame);
+  transform.transform(conversions::to_transform(localizer_.map_from_enu().map_from_base));
   tf2_msgs::msg::TFMessage message;
   message.transforms().push_back(std::move(transform));
   tf_.publish(std::move(message));

@@ -15,7 +15,7 @@
 
 namespace panvo::localizer {
 
-/// gnss/fix -> localizer; gnss/enhanced, the transform from the satellites' frame to the map, and the services fromLL
+/// gnss/fix -> localizer; gnss/enhanced, the transform from the map to the satellites' frame, and the services fromLL
 /// and toLL.
 class Satellites {
  public:

@@ -110,14 +110,15 @@ TEST_F(Satellites, GiveLatitudeAndLongitudeOfTheVehicleAndTheTransformToTheMap) 
   EXPECT_LT((here_m - in_enu(pose(199).translation())).norm(), 0.1);
   EXPECT_GT(last.position_covariance()[0], 0.0);
   EXPECT_LT(last.position_covariance()[0], 1.0);
-  const auto is_of_enu = [](const auto& message) { return message->transforms()[0].header().frame_id() == "enu"; };
+  const auto is_of_enu = [](const auto& message) { return message->transforms()[0].child_frame_id() == "enu"; };
   const auto found = std::find_if(tf_.rbegin(), tf_.rend(), is_of_enu);
   ASSERT_NE(found, tf_.rend());
-  const auto enu_from_map = conversions::to_isometry((*found)->transforms()[0].transform());
-  ASSERT_TRUE(enu_from_map);
+  EXPECT_EQ((*found)->transforms()[0].header().frame_id(), "map");
+  const auto map_from_enu = conversions::to_isometry((*found)->transforms()[0].transform());
+  ASSERT_TRUE(map_from_enu);
   // The frame begins at the first antenna position.
   const Eigen::Vector3d first_m = in_enu(pose(0) * antenna_m_);
-  EXPECT_LT((*enu_from_map * Eigen::Vector3d(20, 10, 0) - (Eigen::Vector3d(-10, 20, 0) - first_m)).norm(), 0.2);
+  EXPECT_LT((*map_from_enu * (Eigen::Vector3d(-10, 20, 0) - first_m) - Eigen::Vector3d(20, 10, 0)).norm(), 0.2);
 }
 
 TEST_F(Satellites, KeepWhereTheMapIsOnEarth) {
