@@ -12,7 +12,7 @@ constexpr double kMaxPath_m = 1e9;
 void check_sender(Check& check, const std_msgs::msg::Header& header, const std::string& robot, std::uint64_t map) {
   check_header(check, header);
   check.require(!robot.empty(), "robot", "is empty").name("robot", robot);
-  check.require(map != 0, "map", "is 0");
+  check.require(map != 0, "map_id", "is 0");
 }
 
 /// Of a place without settings: the sizes of its description are checked by the receiver, who knows the settings.
@@ -44,14 +44,14 @@ Problem problem_of(const panvo_msgs::msg::FleetPeer& peer) {
 
 Problem problem_of(const panvo_msgs::msg::FleetMember& message) {
   Check check;
-  check_sender(check, message.header(), message.robot(), message.map());
+  check_sender(check, message.header(), message.robot(), message.map_id());
   check.text("settings", message.settings());
   return check.problem();
 }
 
 Problem problem_of(const panvo_msgs::msg::FleetPlaces& message) {
   Check check;
-  check_sender(check, message.header(), message.robot(), message.map());
+  check_sender(check, message.header(), message.robot(), message.map_id());
   check.require(message.previous() < message.version(), "version", "is not later than previous");
   check.at_most("places", message.places().size(), kMaxFleetPlaces);
   check.at_most("moved", message.moved().ids().size(), kMaxFleetMoves);
@@ -71,14 +71,14 @@ Problem problem_of(const panvo_msgs::msg::FleetPlaces& message) {
 
 Problem problem_of(const panvo_msgs::msg::FleetRequest& message) {
   Check check;
-  check_sender(check, message.header(), message.robot(), message.map());
+  check_sender(check, message.header(), message.robot(), message.map_id());
   check.at_most("keypoints", message.keypoints().size(), kMaxFleetWanted);
   return check.problem();
 }
 
 Problem problem_of(const panvo_msgs::msg::FleetKeypoints& message) {
   Check check;
-  check_sender(check, message.header(), message.robot(), message.map());
+  check_sender(check, message.header(), message.robot(), message.map_id());
   check.require(message.place() != 0, "place", "is 0");
   check.at_most("keypoints", message.keypoints().size(), kMaxFleetKeypoints);
   for (const auto& keypoint : message.keypoints()) {

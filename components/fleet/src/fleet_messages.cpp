@@ -25,7 +25,7 @@ void fill(Message& message, const Sender& sender, MapId map) {
   message.header().stamp(conversions::to_stamp(sender.stamp_ns));
   message.header().frame_id(sender.map_frame);
   message.robot(sender.robot);
-  message.map(map);
+  message.map_id(map);
 }
 
 panvo_msgs::msg::FleetSighting to_sighting_message(const Sighting& sighting) {
@@ -43,7 +43,7 @@ panvo_msgs::msg::FleetSighting to_sighting_message(const Sighting& sighting) {
 panvo_msgs::msg::FleetPeer to_peer(const Fleet& fleet, MapId map, const Member& member) {
   panvo_msgs::msg::FleetPeer peer;
   peer.robot(member.robot);
-  peer.map(map);
+  peer.map_id(map);
   peer.present(member.is_present);
   peer.places(static_cast<std::uint32_t>(member.map.places().size()));
   peer.version(member.map.version());
@@ -113,21 +113,21 @@ panvo_msgs::msg::FleetKeypoints to_message(const KeypointAnswer& answer, const S
 }
 
 Announcement to_announcement(const panvo_msgs::msg::FleetMember& message) {
-  return {message.robot(),  message.map(),    message.session(),  message.version(),
+  return {message.robot(),  message.map_id(),    message.session(),  message.version(),
           message.digest(), message.places(), message.settings(), message.common_map()};
 }
 
 Request to_request(const panvo_msgs::msg::FleetRequest& message) {
-  return {message.map(), message.has_gap() ? std::optional(message.from_version()) : std::nullopt, message.keypoints()};
+  return {message.map_id(), message.has_gap() ? std::optional(message.from_version()) : std::nullopt, message.keypoints()};
 }
 
 KeypointAnswer to_answer(const panvo_msgs::msg::FleetKeypoints& message) {
-  return {message.map(), message.place(), landmarks::to_keypoints(message.keypoints())};
+  return {message.map_id(), message.place(), landmarks::to_keypoints(message.keypoints())};
 }
 
 conversions::Result<MapChanges> to_changes(const panvo_msgs::msg::FleetPlaces& message,
                                            const landmarks::DescriptionSettings& settings) {
-  MapChanges changes{message.map(), message.session(), message.previous(), message.version(), {}, {}, {}};
+  MapChanges changes{message.map_id(), message.session(), message.previous(), message.version(), {}, {}, {}};
   const auto text = landmarks::to_text(settings);
   for (auto place : message.places()) {
     place.settings(text);
@@ -157,7 +157,7 @@ panvo_msgs::msg::FleetState to_state(const Fleet& fleet, const std::string& flee
   state.header().stamp(conversions::to_stamp(stamp_ns));
   state.header().frame_id(fleet_frame);
   state.robot(fleet.robot());
-  state.map(fleet.own() ? fleet.own()->id() : 0);
+  state.map_id(fleet.own() ? fleet.own()->id() : 0);
   state.common_map(fleet.frame().map);
   state.common_from_map(to_pose_message(fleet.common_from_own(), fleet.covariance_in_common(vision::Matrix6d::Zero())));
   for (const auto& [map, member] : fleet.members().all()) state.peers().push_back(to_peer(fleet, map, member));

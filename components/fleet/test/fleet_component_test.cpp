@@ -205,7 +205,7 @@ TEST_F(FleetOfComponents, SurvivesAnInvalidMessage) {
   drives_->drive("one", flat(0, 0, 0), 1.0);
   panvo_msgs::msg::FleetMember other;
   other.robot("other");
-  other.map(5);
+  other.map_id(5);
   other.settings("patches=300\n");
   harness_.publish(topics::kFleetMembers, other);
   const auto& states = harness_.collect(interfaces::Topic<panvo_msgs::msg::FleetState>{"/one/fleet/state"});
