@@ -113,12 +113,13 @@ panvo_msgs::msg::FleetKeypoints to_message(const KeypointAnswer& answer, const S
 }
 
 Announcement to_announcement(const panvo_msgs::msg::FleetMember& message) {
-  return {message.robot(),  message.map_id(),    message.session(),  message.version(),
+  return {message.robot(),  message.map_id(), message.session(),  message.version(),
           message.digest(), message.places(), message.settings(), message.common_map()};
 }
 
 Request to_request(const panvo_msgs::msg::FleetRequest& message) {
-  return {message.map_id(), message.has_gap() ? std::optional(message.from_version()) : std::nullopt, message.keypoints()};
+  return {message.map_id(), message.has_gap() ? std::optional(message.from_version()) : std::nullopt,
+          message.keypoints()};
 }
 
 KeypointAnswer to_answer(const panvo_msgs::msg::FleetKeypoints& message) {
