@@ -200,6 +200,25 @@ TEST(LocalizerWithSatellites, IsAsBeforeWithoutThem) {
   EXPECT_EQ(localizer.scale().value, 1.0);
 }
 
+TEST(LocalizerWithSatellites, RejectAFixThatThePoseContradicts) {
+  GnssDrive drive(4, 1.0, 0.5);
+  Localizer localizer(parameters());
+  localizer.add(drive.now());
+  for (int i = 1; i <= 203; ++i) {
+    localizer.add(drive.step());
+    if (i % kFixEvery == 0) localizer.add(drive.fix());
+  }
+  ASSERT_TRUE(localizer.has_enu());
+  for (int i = 0; i < 10; ++i) localizer.add(drive.step());
+  const auto before = localizer.latest().map_from_base;
+  auto off = drive.fix();
+  off.enu_m.x() += 60.0;
+  const auto outcome = localizer.add(off);
+  EXPECT_EQ(outcome.use, FixUse::kRejected);
+  EXPECT_EQ(outcome.reason, "contradicts the pose");
+  EXPECT_TRUE(localizer.latest().map_from_base.isApprox(before));
+}
+
 TEST(LocalizerWithSatellites, KeepsFixesThatAreEvenlySpaced) {
   LocalPoseGraph graph(0.01, 0.001, 0.0, {});
   GnssDrive drive(1, 1.0, 1.0);
