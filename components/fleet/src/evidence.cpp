@@ -65,8 +65,8 @@ void Evidence::report(const Pair& pair, const MapJoin& before, const MapJoin& no
                                 now.contradicting));
   } else {
     ++undone_;
-    news_.push_back(
-        fmt::format("maps {} and {} are no longer joined: {}", to_text(pair.first), to_text(pair.second), now.reason));
+    news_.push_back(fmt::format("the join of maps {} and {} was undone: {}", to_text(pair.first), to_text(pair.second),
+                                now.reason));
   }
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <variant>
@@ -23,6 +22,7 @@
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/position_corrector/spilled_keypoints.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/runtime/errors.hpp"
 
 namespace panvo::fleet {
 
@@ -43,8 +43,7 @@ struct ComponentParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = ComponentParameters;
-    field(&P::robot, "robot", "",
-          "name of this robot, unique in the fleet; empty: a random one, so that a restarted robot is another one");
+    field(&P::robot, "robot", "", "name of this robot, unique in the fleet; required");
     field.group(&P::sharing, "sharing");
     field.group(&P::members, "members");
     field.group(&P::recognition, "recognition");
@@ -62,15 +61,6 @@ struct ComponentParameters {
   }
 };
 
-namespace {
-
-std::string random_name() {
-  std::random_device random;
-  return fmt::format("robot-{:08x}{:08x}", random(), random());
-}
-
-}  // namespace
-
 /// landmarks, landmarks/poses, odometry/enhanced, panorama/image, /fleet/... -> /fleet/..., fleet/state, odometry/fleet,
 /// /tf.
 class FleetComponent final : public runtime::Component {
@@ -83,9 +73,8 @@ class FleetComponent final : public runtime::Component {
         settings_(landmarks::description_settings(parameters_.description,
                                                   static_cast<std::uint64_t>(parameters_.description_seed))),
         own_keypoints_(std::make_shared<position_corrector::SpilledKeypoints>(parameters_.spill_folder)),
-        fleet_({parameters_.sharing, parameters_.members, parameters_.recognition, parameters_.join},
-               parameters_.robot.empty() ? random_name() : parameters_.robot, parameters_.keypoints, describer_,
-               settings_, own_keypoints_, &timer_),
+        fleet_({parameters_.sharing, parameters_.members, parameters_.recognition, parameters_.join}, parameters_.robot,
+               parameters_.keypoints, describer_, settings_, own_keypoints_, &timer_),
         members_(context.output(topics::kFleetMembers)),
         places_(context.output(topics::kFleetPlaces)),
         requests_(context.output(topics::kFleetRequests)),
@@ -93,6 +82,9 @@ class FleetComponent final : public runtime::Component {
         state_(context.output(topics::kFleetState)),
         pose_(context, parameters_.fleet_frame),
         transforms_(context) {
+    if (parameters_.robot.empty()) {
+      throw runtime::ConfigError(context.name() + ": robot is empty: give each robot a name of its own, robot:=NAME");
+    }
     context.set_background();
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });

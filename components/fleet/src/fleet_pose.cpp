@@ -15,7 +15,7 @@ constexpr std::size_t kMaxBridges = 100;  // the work grows with the square
 struct Stop {
   const landmarks::PanoramicLandmark* place = nullptr;
   bool is_reached = false, is_done = false;
-  bool is_over_bridge = false;  ///< not through its map: then going on through its map is no detour
+  bool is_over_bridge = false;  ///< reached over a bridge, so the way may continue through the stop's own map
   FleetPose pose;               ///< common_from_base at the place
   double variance_m2() const { return pose.covariance.topLeftCorner<3, 3>().trace(); }
 };

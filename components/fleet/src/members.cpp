@@ -90,8 +90,8 @@ void Members::begin(const Announcement& said) {
     news_.push_back(
         fmt::format("{} joined the fleet with map {}, {} places", said.robot, to_text(said.map), said.places));
   } else {
-    news_.push_back(fmt::format("{} was restarted with the new map {}; its map {} stays", said.robot, to_text(said.map),
-                                to_text(before->second)));
+    news_.push_back(fmt::format("{} was restarted with the new map {}; its map {} is kept", said.robot,
+                                to_text(said.map), to_text(before->second)));
     members_.at(before->second).is_present = false;
   }
   map_of_[said.robot] = said.map;
@@ -196,7 +196,7 @@ void Members::advance(std::int64_t now_ns) {
   for (auto& [map, member] : members_) {
     if (!member.is_present || now_ns - member.heard_ns < ns(parameters_.absent_s)) continue;
     member.is_present = false;
-    news_.push_back(fmt::format("{} is no longer heard; its map {} stays", member.robot, to_text(map)));
+    news_.push_back(fmt::format("{} has gone silent; its map {} is kept", member.robot, to_text(map)));
   }
 }
 

@@ -23,7 +23,7 @@ TEST(Evidence, ReportsJoinsThatAreMadeAndUndone) {
   for (const std::uint32_t id : {6U, 7U, 8U}) maps.a_sees(id, id);
   evidence.update({&maps.a, &maps.b}, 4);
   EXPECT_FALSE(evidence.find(TwoMaps::kA, TwoMaps::kB)->is_joined);
-  EXPECT_THAT(evidence.take_news(), ElementsAre(HasSubstr("no longer joined: 3 sightings agree, 3 others contradict")));
+  EXPECT_THAT(evidence.take_news(), ElementsAre(HasSubstr("was undone: 3 sightings agree, 3 others contradict")));
   EXPECT_EQ(evidence.made(), 1);
   EXPECT_EQ(evidence.undone(), 1);
 }

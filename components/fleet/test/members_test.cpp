@@ -145,7 +145,7 @@ TEST_F(FleetMembers, SayWhoLeftAndWhoIsBack) {
   announce();
   EXPECT_EQ(members_.present().size(), 1U);
   const auto news = members_.take_news();
-  EXPECT_THAT(news, Contains(HasSubstr("two is no longer heard")));
+  EXPECT_THAT(news, Contains(HasSubstr("two has gone silent")));
   EXPECT_THAT(news, Contains("two is back"));
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gnss_messages.hpp"
 
-#include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -18,7 +16,6 @@ constexpr double kUsualSigma_m = 5.0;  // of a receiver without corrections, hor
 constexpr double kUsualHeight_m = 10.0;
 constexpr double kUnknownHeight_m = 1e4;
 constexpr double kLeastVariance_m2 = 1e-4;  // no receiver is better than a centimetre
-constexpr double kMostVariance_m2 = 1e8;
 constexpr double kMostAltitude_m = 1e5;
 
 Eigen::Matrix3d usual_covariance() {
@@ -31,10 +28,6 @@ conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSa
   if (message.status().status() < status::STATUS_FIX) return conversions::Reason{"has no position: status NO_FIX"};
   SatellitePosition position{{message.latitude(), message.longitude(), message.altitude()}, usual_covariance()};
   auto& point = position.point;
-  if (!std::isfinite(point.latitude_deg) || !std::isfinite(point.longitude_deg))
-    return conversions::Reason{"has a latitude or longitude that is not finite"};
-  if (std::abs(point.latitude_deg) > 90.0 || std::abs(point.longitude_deg) > 360.0)
-    return conversions::Reason{"has a latitude beyond 90 or a longitude beyond 360 degrees: are they exchanged?"};
   if (point.latitude_deg == 0.0 && point.longitude_deg == 0.0)
     return conversions::Reason{"states latitude and longitude 0: the receiver has no position yet"};
   const bool has_altitude = std::isfinite(point.altitude_m) && std::abs(point.altitude_m) < kMostAltitude_m;
@@ -42,13 +35,7 @@ conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSa
   const Eigen::Matrix3d stated =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(message.position_covariance().data());
   const bool is_stated = message.position_covariance_type() != constants::COVARIANCE_TYPE_UNKNOWN && !stated.isZero();
-  if (is_stated) {
-    if (!stated.allFinite() || stated.diagonal().minCoeff() < 0.0 || stated.diagonal().maxCoeff() > kMostVariance_m2)
-      return conversions::Reason{"has a covariance that is not finite, negative or beyond (10 km)^2"};
-    position.covariance = 0.5 * (stated + stated.transpose()) + kLeastVariance_m2 * Eigen::Matrix3d::Identity();
-    if (position.covariance.llt().info() != Eigen::Success)
-      return conversions::Reason{"has a covariance that is not positive semidefinite"};
-  }
+  if (is_stated) position.covariance = stated + kLeastVariance_m2 * Eigen::Matrix3d::Identity();
   if (!has_altitude) position.covariance(2, 2) = kUnknownHeight_m * kUnknownHeight_m;
   return position;
 }

@@ -18,7 +18,8 @@ struct SatellitePosition {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 
-/// Without a stated covariance, that of a receiver without corrections. The reason names what is missing or invalid.
+/// Of a message that satisfies its rules. Without a stated covariance, that of a receiver without corrections. The reason
+/// says why there is no position.
 conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message);
 
 /// The vehicle's position, if the frame of the satellites touches the earth at `plane`.

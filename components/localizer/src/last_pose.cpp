@@ -2,16 +2,14 @@
 #include "last_pose.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numbers>
-#include <span>
 #include <stdexcept>
 
-#include "number_lines.hpp"
 #include "panvo/interfaces/check.hpp"
 #include "panvo/localizer/dead_reckoning.hpp"
+#include "pose_lines.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -20,12 +18,10 @@ constexpr double kMinSpeed = 0.5;  // m/s: a stationary vehicle may start
 constexpr double kTurnRate = 0.3;  // rad/s, of a vehicle in a bend
 constexpr double kTilt = 0.05;     // rad
 
-/// Applies the rules of odometry messages, the origin of the values.
-void check_numbers(interfaces::Check& check, std::span<const double> position, std::span<const double> covariance,
-                   double speed_m_per_s) {
-  check.bounded("position", position, interfaces::kMaxCoordinate_m);
-  check.covariance("covariance", covariance);
-  check.within("speed_m_per_s", speed_m_per_s, 0.0, interfaces::kMaxRate);
+std::optional<std::string> problem_of_last(const LastPose& last) {
+  interfaces::Check check;
+  check.within("speed_m_per_s", last.speed_m_per_s, 0.0, interfaces::kMaxRate);
+  return check.problem() ? check.problem() : problem_of(last.pose);
 }
 
 LastPose from_lines(const Lines& lines) {
@@ -34,28 +30,9 @@ LastPose from_lines(const Lines& lines) {
   last.speed_m_per_s = numbers<double>(lines, "speed_m_per_s", 1)[0];
   const auto frame = lines.find("map_frame");
   if (frame != lines.end()) last.map_frame = frame->second;
-  const auto position = numbers<double>(lines, "position", 3);
-  const auto orientation = numbers<double>(lines, "orientation", 4);  // x, y, z, w
-  const auto covariance = numbers<double>(lines, "covariance", 36);
-  const Eigen::Map<const Eigen::Quaterniond> rotation(orientation.data());
-  interfaces::Check check;
-  check.quaternion("orientation", rotation.x(), rotation.y(), rotation.z(), rotation.w());
-  check_numbers(check, position, covariance, last.speed_m_per_s);
-  if (check.problem()) throw std::runtime_error(*check.problem());
-  last.pose.map_from_base = Eigen::Isometry3d(rotation.normalized());
-  last.pose.map_from_base.translation() = Eigen::Map<const Eigen::Vector3d>(position.data());
-  last.pose.covariance = Eigen::Map<const vision::Matrix6d>(covariance.data());
+  last.pose = pose_of(lines);
+  if (const auto problem = problem_of_last(last)) throw std::runtime_error(*problem);
   return last;
-}
-
-/// Numbers in the shortest form that reads back exactly.
-std::string file_text(const LastPose& last) {
-  const Eigen::Vector3d position = last.pose.map_from_base.translation();
-  const Eigen::Quaterniond rotation(last.pose.map_from_base.linear());
-  return fmt::format(
-      "map_frame {}\nstamp_ns {}\nspeed_m_per_s {}\nposition {} {} {}\norientation {} {} {} {}\ncovariance {}\n",
-      last.map_frame, last.stamp_ns, last.speed_m_per_s, position.x(), position.y(), position.z(), rotation.x(),
-      rotation.y(), rotation.z(), rotation.w(), fmt::join(std::span(last.pose.covariance.data(), 36), " "));
 }
 
 }  // namespace
@@ -71,13 +48,11 @@ PoseInMap after_gap(const LastPose& last, double gap_s) {
 }
 
 void write_last_pose(const std::filesystem::path& file, const LastPose& last) {
-  interfaces::Check check;
-  const Eigen::Vector3d position = last.pose.map_from_base.translation();
-  check_numbers(check, std::span(position.data(), 3), std::span(last.pose.covariance.data(), 36), last.speed_m_per_s);
-  if (check.problem()) {
-    throw std::runtime_error(fmt::format("{} not written, invalid pose: {}", file.string(), *check.problem()));
+  if (const auto problem = problem_of_last(last)) {
+    throw std::runtime_error(fmt::format("{} not written, invalid pose: {}", file.string(), *problem));
   }
-  write_lines(file, file_text(last));
+  write_lines(file, fmt::format("map_frame {}\nstamp_ns {}\nspeed_m_per_s {}\n{}", last.map_frame, last.stamp_ns,
+                                last.speed_m_per_s, to_lines(last.pose)));
 }
 
 std::optional<LastPose> read_last_pose(const std::filesystem::path& file) {

@@ -47,35 +47,20 @@ void Satellites::on_fix(const sensor_msgs::msg::NavSatFix& message) {
   if (!parameters_.use_gnss || base_frame_.empty()) return;
   const auto position = to_position(message);
   if (!position) return refuse(position.reason());
-  const auto antenna_in_base_m = antenna(message.header().frame_id());
-  if (!antenna_in_base_m) return;
+  const auto base_from_antenna =
+      antenna_.find(context_.resolved_name(topics::kGnssFix), base_frame_, message.header().frame_id(), transforms_,
+                    context_.log(), "the antenna is at " + base_frame_);
+  if (!base_from_antenna) return refuse(base_from_antenna.reason());
   if (!plane_) plane_.emplace(position->point);
   const Eigen::Vector3d enu_m = plane_->enu(position->point);
   if (!(enu_m.norm() < kFarthest_m)) {
     return refuse(fmt::format("is {:.0f} km from the first position", 1e-3 * enu_m.norm()));
   }
-  waiting_.push_back({conversions::stamp_ns(message), enu_m, position->covariance, *antenna_in_base_m});
+  waiting_.push_back({conversions::stamp_ns(message), enu_m, position->covariance, base_from_antenna->translation()});
   if (waiting_.size() > kMaxWaiting) {
     waiting_.pop_front();
     refuse("has a stamp far ahead of the odometry's: are the clocks synchronised?");
   }
-}
-
-/// Position of the receiver's antenna on the vehicle; nullopt for the message of another receiver.
-std::optional<Eigen::Vector3d> Satellites::antenna(const std::string& frame) {
-  if (frame_.empty()) frame_ = frame;
-  if (frame_ != frame) {
-    refuse(fmt::format("comes from several receivers, '{}' and '{}': publish one of them", frame_, frame));
-    return std::nullopt;
-  }
-  if (frame.empty() || frame == base_frame_) return Eigen::Vector3d::Zero();
-  if (const auto known = transforms_.buffer().lookup(base_frame_, frame)) return known->translation();
-  if (!has_warned_of_frame_) {
-    context_.log().warn("{}: no transform from {} to {} in /tf_static; assuming that the antenna is at {}",
-                        context_.resolved_name(topics::kGnssFix), base_frame_, frame, base_frame_);
-    has_warned_of_frame_ = true;
-  }
-  return Eigen::Vector3d::Zero();
 }
 
 bool Satellites::work_off() {

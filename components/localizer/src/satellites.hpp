@@ -8,6 +8,7 @@
 
 #include "component_parameters.hpp"
 #include "gnss_messages.hpp"
+#include "panvo/conversions/sensor_mount.hpp"
 #include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/gnss_topics.hpp"
 #include "panvo/localizer/localizer.hpp"
@@ -29,7 +30,6 @@ class Satellites {
 
  private:
   void on_fix(const sensor_msgs::msg::NavSatFix& message);
-  std::optional<Eigen::Vector3d> antenna(const std::string& frame);
   void tell(const FixOutcome& outcome);
   void refuse(const std::string& reason);
   void serve();
@@ -47,8 +47,8 @@ class Satellites {
   std::optional<vision::TangentPlane> plane_;  // at the first position
   std::deque<GnssFix> waiting_;
   std::optional<std::int64_t> kept_ns_;
-  std::string frame_, base_frame_;
-  bool has_warned_of_frame_ = false;
+  conversions::SensorMount antenna_;
+  std::string base_frame_;
   bool has_told_scale_ = false;
 };
 

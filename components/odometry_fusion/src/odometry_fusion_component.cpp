@@ -9,6 +9,7 @@
 #include "fusion_messages.hpp"
 #include "panvo/conversions/odometry_join.hpp"
 #include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/sensor_mount.hpp"
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_listener.hpp"
@@ -62,12 +63,6 @@ class OdometryFusionComponent final : public runtime::Component {
   static constexpr int kMaxRefused = 5;  // consecutive stereo poses, after which their clock counts as set back
   static constexpr std::size_t kMaxShares = 100;
 
-  /// A sensor's frame is that of its first message; others are another sensor's.
-  struct Mount {
-    std::optional<std::string> frame;
-    bool has_warned = false;
-  };
-
   void take_joined() {
     const bool is_quality_published = join_.has_quality() || context_.has_publisher(topics::kOdometryQuality);
     while (const auto next = join_.next(context_.passing_ns(), is_quality_published)) on_stereo(*next);
@@ -116,7 +111,7 @@ class OdometryFusionComponent final : public runtime::Component {
 
   void on_wheels(std::string_view topic, const std::string& frame, std::int64_t stamp_ns,
                  const geometry_msgs::msg::TwistWithCovariance& twist) {
-    if (!wheels_.frame) wheel_topic_ = topic;
+    if (!wheels_.has_frame()) wheel_topic_ = topic;
     if (wheel_topic_ != topic) {
       context_.log().warn_throttled("two wheel topics", "{} is not used, because {} is received, too", name_of(topic),
                                     name_of(wheel_topic_));
@@ -130,24 +125,16 @@ class OdometryFusionComponent final : public runtime::Component {
     publish();
   }
 
-  /// Pose of a sensor's frame on the vehicle; without one in /tf_static that of base_link, which the trial against the
-  /// cameras then confirms or refutes. nullopt for the message of another sensor, or before the cameras.
-  std::optional<Eigen::Isometry3d> base_from(Mount& mount, std::string_view topic, const std::string& frame) {
+  /// Pose of a sensor on the vehicle; without one in /tf_static that of base_link, which the trial against the cameras
+  /// then confirms or refutes. nullopt for the message of another sensor, or before the cameras.
+  std::optional<Eigen::Isometry3d> base_from(conversions::SensorMount& mount, std::string_view topic,
+                                             const std::string& frame) {
     if (!last_stereo_) return std::nullopt;
-    if (!mount.frame) mount.frame = frame;
-    if (*mount.frame != frame) {
-      refuse(topic, fmt::format("comes from several sensors, '{}' and '{}': publish one of them", *mount.frame, frame));
-      return std::nullopt;
-    }
-    const std::string& base = last_stereo_->child_frame_id();
-    if (frame.empty() || frame == base) return Eigen::Isometry3d::Identity();
-    if (const auto known = transforms_.buffer().lookup(base, frame)) return known;
-    if (!mount.has_warned) {
-      context_.log().warn("{}: no transform from {} to {} in /tf_static; assuming that their axes are equal",
-                          name_of(topic), base, frame);
-      mount.has_warned = true;
-    }
-    return Eigen::Isometry3d::Identity();
+    const auto found = mount.find(name_of(topic), last_stereo_->child_frame_id(), frame, transforms_, context_.log(),
+                                  "their axes are equal");
+    if (found) return *found;
+    refuse(topic, found.reason());
+    return std::nullopt;
   }
 
   void publish() {
@@ -177,7 +164,7 @@ class OdometryFusionComponent final : public runtime::Component {
   void say_what_was_learned() const {
     const auto& learned = fusion_.filter().learned();
     const Eigen::Vector3d bias = fusion_.gyro_bias();
-    if (imu_.frame && fusion_.gyro().fault.empty()) {
+    if (imu_.has_frame() && fusion_.gyro().fault.empty()) {
       context_.log().info("gyroscope: bias {:.4f} {:.4f} {:.4f} rad/s{}", bias.x(), bias.y(), bias.z(),
                           fusion_.gyro().is_used ? "" : "; not used, because the vehicle has not turned enough");
     }
@@ -208,7 +195,7 @@ class OdometryFusionComponent final : public runtime::Component {
   std::int64_t predicted_ns_ = INT64_MIN;                    // stamp of the last prediction
   SensorNotices gyro_notices_, wheel_notices_, yaw_notices_;
   conversions::OdometryJoin join_;
-  Mount imu_, wheels_;
+  conversions::SensorMount imu_, wheels_;
   std::string_view wheel_topic_ = topics::kWheelOdometry.name;  // of the first message
   std::shared_ptr<const nav_msgs::msg::Odometry> last_stereo_;
   std::map<std::int64_t, double> outlier_shares_;  // by stamp, of poses that are not fused yet

@@ -16,6 +16,7 @@
 #include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/description_settings.hpp"
+#include "panvo/landmarks/early_poses.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/panorama_check.hpp"
 #include "panvo/position_corrector/correction_messages.hpp"
@@ -110,10 +111,7 @@ class PositionCorrectorComponent final : public runtime::Component {
     // a landmark that is received again has an updated pose
     if (library_.set_pose(read->id, read->map_from_base, read->covariance)) return;
     auto landmark = *read;
-    if (const auto moved = moved_.find(landmark.id); moved != moved_.end()) {
-      landmark.map_from_base = moved->second.map_from_base;
-      landmark.covariance = moved->second.covariance;
-    }
+    early_poses_.apply(landmark);
     keypoints_->put(landmark.id, landmark.keypoints);
     if (!keypoints_->problem().empty()) {
       context_.log().warn_throttled("spill", "{}: keypoints of landmarks stay in memory", keypoints_->problem());
@@ -131,11 +129,9 @@ class PositionCorrectorComponent final : public runtime::Component {
       return context_.log().warn_throttled(poses.reason(), "{} {}; landmark poses are unchanged",
                                            context_.resolved_name(topics::kLandmarkPoses), poses.reason());
     }
-    moved_.clear();
-    for (const auto& pose : *poses) {
-      // the landmark may arrive later
-      if (!library_.set_pose(pose.id, pose.map_from_base, pose.covariance)) moved_[pose.id] = pose;
-    }
+    early_poses_.replace(*poses, [this](const landmarks::LandmarkPose& pose) {
+      return library_.set_pose(pose.id, pose.map_from_base, pose.covariance);
+    });
   }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
@@ -237,7 +233,7 @@ class PositionCorrectorComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::PositionCorrection> correction_;
 
   conversions::TransformListener transforms_;
-  std::map<std::uint32_t, landmarks::LandmarkPose> moved_;  // poses of landmarks not received yet
+  landmarks::EarlyPoses early_poses_;
   OdometryTrail trail_;
 };
 

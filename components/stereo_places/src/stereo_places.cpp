@@ -24,7 +24,6 @@ using position_corrector::PositionCorrection;
 
 constexpr double kExpectedSigmas = 2.0;    // a sighting within agrees with the expected pose
 constexpr double kExpected_m = 0.3;        // or within this
-constexpr double kPerPlace_m = 0.01;       // between corrections: the localizer's time for one grows with the map
 constexpr double kCommonError = 0.02;      // of the distance from the place
 constexpr std::size_t kMinKeypoints = 30;  // a place with fewer points is not recognised anyway
 
@@ -168,8 +167,7 @@ std::optional<PositionCorrection> StereoPlaces::correct(const StereoView& view, 
       (place.landmark->map_from_base * pose.landmark_from_base).translation() - view.pose.map_from_base.translation();
   const double expected_m = std::max(kExpected_m, kExpectedSigmas * vision::horizontal_sigma(pose.covariance));
   is_expected_ = view.pose.is_located && off.head<2>().norm() < expected_m;
-  const double spacing_m = std::max(parameters_.rule.correction_m, kPerPlace_m * static_cast<double>(library_.size()));
-  const bool is_soon = corrected_at_m_ && view.way_m - *corrected_at_m_ < spacing_m;
+  const bool is_soon = corrected_at_m_ && view.way_m - *corrected_at_m_ < parameters_.rule.correction_m;
   if (is_expected_ && is_soon) return std::nullopt;
   corrected_at_m_ = view.way_m;
   PositionCorrection correction;

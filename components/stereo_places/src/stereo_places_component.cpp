@@ -16,6 +16,7 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
+#include "panvo/landmarks/early_poses.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/position_corrector/correction_messages.hpp"
 #include "panvo/position_corrector/match_messages.hpp"
@@ -115,11 +116,7 @@ class StereoPlacesComponent final : public runtime::Component {
   /// Landmarks that arrived before the calibration of the cameras.
   void take_early() {
     for (auto& landmark : std::exchange(early_, {})) {
-      if (const auto moved = moved_.find(landmark.id); moved != moved_.end()) {
-        landmark.map_from_base = moved->second.map_from_base;
-        landmark.covariance = moved->second.covariance;
-        moved_.erase(moved);
-      }
+      early_poses_.apply(landmark);
       try {
         places_->add(std::move(landmark));
       } catch (const std::invalid_argument& error) {
@@ -134,10 +131,8 @@ class StereoPlacesComponent final : public runtime::Component {
       return context_.log().warn_throttled(poses.reason(), "{} {}; landmark poses are unchanged",
                                            context_.resolved_name(topics::kLandmarkPoses), poses.reason());
     }
-    moved_.clear();
-    for (const auto& pose : *poses) {
-      if (!places_ || !places_->set_pose(pose)) moved_[pose.id] = pose;  // the landmark may arrive later
-    }
+    early_poses_.replace(*poses,
+                         [this](const landmarks::LandmarkPose& pose) { return places_ && places_->set_pose(pose); });
   }
 
   void on_enhanced(const nav_msgs::msg::Odometry& message) {
@@ -264,7 +259,7 @@ class StereoPlacesComponent final : public runtime::Component {
   cv::Size size_;
   std::optional<StereoPlaces> places_;
   std::vector<landmarks::PanoramicLandmark> early_;
-  std::map<std::uint32_t, landmarks::LandmarkPose> moved_;  // poses of landmarks not received yet
+  landmarks::EarlyPoses early_poses_;
   std::deque<Odometry> odometry_;
   std::optional<Enhanced> enhanced_;
   std::deque<Pair> waiting_;

@@ -25,14 +25,11 @@ ClientSession::ClientSession(View& view, WebServer::Connection& connection)
     : view_(view),
       connection_(connection),
       assembly_(kMaxRequestBytes),
-      sender_(
-          connection, {view.settings().queue_bytes, kMaxWaiting},
-          [&view](const runtime::SamplePtr& image) { return view.compressor().compressed(image); },
-          [this] {
-            view_.log().warn_throttled(
-                "stalled", "client {} does not read what it subscribed to: closed, {} messages were dropped before",
-                connection_.address(), sender_.dropped());
-          }) {
+      sender_(connection, {view.settings().queue_bytes, kMaxWaiting}, view.compressor(), [this] {
+        view_.log().warn_throttled(
+            "stalled", "client {} does not read what it subscribed to: closed, {} messages were dropped before",
+            connection_.address(), sender_.dropped());
+      }) {
   view_.join(*this);
   view_.log().debug("client {} connected", connection_.address());
 }

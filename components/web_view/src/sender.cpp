@@ -14,10 +14,10 @@ constexpr std::chrono::seconds kStall{3};
 
 }  // namespace
 
-Sender::Sender(WebServer::Connection& connection, Limits limits,
-               std::function<runtime::SamplePtr(const runtime::SamplePtr&)> compress, std::function<void()> on_stalled)
+Sender::Sender(WebServer::Connection& connection, Limits limits, ImageCompressor& compressor,
+               std::function<void()> on_stalled)
     : connection_(connection),
-      compress_(std::move(compress)),
+      compressor_(compressor),
       on_stalled_(std::move(on_stalled)),
       queue_(limits.max_bytes, limits.max_items),
       thread_([this] { loop(); }) {}
@@ -95,7 +95,7 @@ bool Sender::send(const SendQueue::Item& item) {
 }
 
 bool Sender::send(const SendQueue::Message& message) {
-  const auto sample = message.is_to_compress ? compress_(message.sample) : message.sample;
+  const auto sample = message.is_to_compress ? compressor_.compressed(message.sample) : message.sample;
   if (!sample) return true;  // nothing to send
   frame_ = message_head(message.subscription, message.time_ns);
   const auto& bytes = sample->bytes();

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "image_compressor.hpp"
 #include "send_queue.hpp"
 #include "web_server.hpp"
 
@@ -25,12 +26,10 @@ class Sender {
     std::size_t max_items;
   };
 
-  /// `compress` makes a compressed image of an image; nullptr: it cannot.
-  ///
   /// `on_stalled` is called at most once, on the sender's thread, when the queue is full or the client has not read for
   /// the timeout of the connection, which is then closed. Not called for a client that has left.
-  Sender(WebServer::Connection& connection, Limits limits,
-         std::function<runtime::SamplePtr(const runtime::SamplePtr&)> compress, std::function<void()> on_stalled);
+  Sender(WebServer::Connection& connection, Limits limits, ImageCompressor& compressor,
+         std::function<void()> on_stalled);
   ~Sender();
   Sender(const Sender&) = delete;
   Sender& operator=(const Sender&) = delete;
@@ -54,7 +53,7 @@ class Sender {
   bool send(const SendQueue::Message& message);
 
   WebServer::Connection& connection_;
-  const std::function<runtime::SamplePtr(const runtime::SamplePtr&)> compress_;
+  ImageCompressor& compressor_;
   const std::function<void()> on_stalled_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

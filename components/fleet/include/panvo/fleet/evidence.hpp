@@ -19,8 +19,8 @@ class Evidence {
  public:
   explicit Evidence(const JoinParameters& parameters) : parameters_(parameters) {}
 
-  /// Decides again on pairs of which a map has changed, at most `most` of them; the others follow in later calls. Maps
-  /// that are no longer there are forgotten.
+  /// Decides again on pairs with a changed map, at most `most` of them; the rest follow in later calls. Drops the
+  /// decisions on maps that are not in `maps`.
   void update(const std::vector<const SharedMap*>& maps, int most);
 
   /// The decision on two maps in either order; nullptr if none was made. Its sightings are from the smaller id to the

@@ -40,7 +40,7 @@ struct MemberParameters {
   }
 };
 
-/// What a robot says of itself once a second.
+/// A robot's announcement, sent once a second.
 struct Announcement {
   std::string robot;
   MapId map = 0;
@@ -74,7 +74,7 @@ class Members {
 
   /// The reason why an announcement is refused; nullopt if it is used.
   std::optional<std::string> hear(const Announcement& said, std::int64_t now_ns);
-  /// The same for changes. Changes that come too early or too late are no fault.
+  /// Likewise for changes. Changes that arrive early or late are ignored, not refused.
   std::optional<std::string> take(const std::string& robot, const MapChanges& changes, std::int64_t now_ns);
 
   /// A map of which changes are missing, and the version from which on.

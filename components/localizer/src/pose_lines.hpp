@@ -8,10 +8,13 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "panvo/localizer/local_pose_graph.hpp"
 
 namespace panvo::localizer {
 
@@ -44,6 +47,14 @@ std::vector<Number> numbers(const Lines& lines, const std::string& key, std::siz
   }
   return values;
 }
+
+/// Which rule of odometry messages, the origin of the values, a pose breaks; nullopt: none.
+std::optional<std::string> problem_of(const PoseInMap& pose);
+
+/// Lines "position", "orientation" (x, y, z, w) and "covariance", in the shortest form that reads back exactly.
+std::string to_lines(const PoseInMap& pose);
+/// The inverse. Throws std::runtime_error if the lines hold no pose without a problem.
+PoseInMap pose_of(const Lines& lines);
 
 /// Empty if there is no file.
 Lines read_lines(const std::filesystem::path& file);
