@@ -5,14 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <opencv2/core/hal/intrin.hpp>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <tuple>
 
 #include "panvo/landmarks/panorama_describer.hpp"
+#include "panvo/landmarks/sift.hpp"
 #include "panvo/vision/equirectangular.hpp"
 #include "turn.hpp"
 
@@ -22,7 +20,6 @@ namespace {
 constexpr int kMargin_px = 32;      // beyond the seam: support of a descriptor in the half-size image
 constexpr int kFullMargin_px = 96;  // and of the larger scales of the full image
 constexpr int kSectors = 24;        // of the full turn, each with an equal share of the keypoints
-constexpr int kSurplus = 2;         // detected per keypoint kept, so that every sector has a choice
 
 /// The band of the panorama that is searched, with a margin wrapped from the opposite end on each side.
 struct Section {
@@ -57,40 +54,6 @@ Section cut_section(const cv::Mat& panorama, const KeypointParameters& parameter
   return section;
 }
 
-/// Orders by descending strength, independent of the order of detection; ties by position in the image.
-bool is_stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
-  if (a.response != b.response) return a.response > b.response;
-  if (a.pt.y != b.pt.y) return a.pt.y < b.pt.y;
-  if (a.pt.x != b.pt.x) return a.pt.x < b.pt.x;
-  return a.angle < b.angle;
-}
-
-/// The strongest keypoints, with an equal share for each sector first. Drops those in the margins, which are also found
-/// at the other end.
-std::vector<cv::KeyPoint> choose(const std::vector<cv::KeyPoint>& found, const Section& section, int columns,
-                                 int most) {
-  const auto column = [&](int i) { return section.to_panorama(found[static_cast<std::size_t>(i)].pt).x(); };
-  const auto stronger = [&](int a, int b) {
-    return is_stronger(found[static_cast<std::size_t>(a)], found[static_cast<std::size_t>(b)]);
-  };
-  std::vector<int> ranked(found.size());
-  std::iota(ranked.begin(), ranked.end(), 0);
-  std::erase_if(ranked, [&](int i) { return column(i) < -0.5 || column(i) >= columns - 0.5; });
-  std::sort(ranked.begin(), ranked.end(), stronger);
-  const int share = (most + kSectors - 1) / kSectors;
-  std::vector<int> taken(kSectors, 0), chosen, others;
-  for (const int i : ranked) {
-    const int sector = std::clamp(static_cast<int>((column(i) + 0.5) * kSectors / columns), 0, kSectors - 1);
-    (taken[static_cast<std::size_t>(sector)]++ < share ? chosen : others).push_back(i);
-  }
-  chosen.insert(chosen.end(), others.begin(), others.end());
-  if (chosen.size() > static_cast<std::size_t>(most)) chosen.resize(static_cast<std::size_t>(most));
-  std::sort(chosen.begin(), chosen.end(), stronger);
-  std::vector<cv::KeyPoint> strongest;
-  for (const int i : chosen) strongest.push_back(found[static_cast<std::size_t>(i)]);
-  return strongest;
-}
-
 /// Whether a keypoint lies on a masked pixel, or on the edge of the masked region: that edge would be found anywhere.
 bool is_masked(const cv::Mat& mask, const Eigen::Vector2d& pixel, double size_px) {
   const int u = static_cast<int>(std::lround(pixel.x()));
@@ -101,18 +64,6 @@ bool is_masked(const cv::Mat& mask, const Eigen::Vector2d& pixel, double size_px
   const int reach = static_cast<int>(std::lround(size_px));
   return !is_seen(pixel.y(), u) || !is_seen(pixel.y() - size_px, u) || !is_seen(pixel.y() + size_px, u) ||
          !is_seen(pixel.y(), u - reach) || !is_seen(pixel.y(), u + reach);
-}
-
-/// Keypoints with several orientations become one.
-void set_upright(std::vector<cv::KeyPoint>& keypoints) {
-  for (auto& keypoint : keypoints) keypoint.angle = 0.0F;
-  const auto place = [](const cv::KeyPoint& keypoint) {
-    return std::tuple(keypoint.pt.x, keypoint.pt.y, keypoint.size);
-  };
-  std::sort(keypoints.begin(), keypoints.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
-  const auto last = std::unique(keypoints.begin(), keypoints.end(),
-                                [&](const auto& a, const auto& b) { return place(a) == place(b); });
-  keypoints.erase(last, keypoints.end());
 }
 
 /// Squared Euclidean distance of two descriptors, exact in integers.
@@ -154,29 +105,20 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
   const cv::Mat grey = to_described_size(panorama);
   const vision::Equirectangular sphere{grey.cols, grey.rows};
   const Section section = cut_section(grey, parameters);
-  const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, parameters.min_contrast);
-  std::vector<cv::KeyPoint> found;
-  sift->detect(section.image, found);
-  if (!mask.empty()) {
-    std::erase_if(found, [&](const cv::KeyPoint& keypoint) {
-      return is_masked(mask, section.to_panorama(keypoint.pt), keypoint.size * section.scale);
-    });
-  }
-  if (parameters.upright) set_upright(found);
-  // Computing descriptors costs more than repeating the blur, so only the chosen keypoints are described.
-  std::vector<cv::KeyPoint> chosen = choose(found, section, grey.cols, parameters.most);
-  if (chosen.empty()) return {};
-  cv::Mat descriptors;
-  sift->compute(section.image, chosen, descriptors);
-
+  // Keypoints in the margins are also found at the other end.
+  const auto sector_of = [&](const cv::KeyPoint& keypoint) -> std::optional<int> {
+    const Eigen::Vector2d pixel = section.to_panorama(keypoint.pt);
+    if (pixel.x() < -0.5 || pixel.x() >= grey.cols - 0.5) return std::nullopt;
+    if (!mask.empty() && is_masked(mask, pixel, keypoint.size * section.scale)) return std::nullopt;
+    return static_cast<int>((pixel.x() + 0.5) * kSectors / grey.cols);
+  };
   std::vector<Keypoint> keypoints;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
+  const SiftRule rule{parameters.most, parameters.min_contrast, parameters.upright, kSectors};
+  for (const auto& feature : detect_sift(section.image, rule, sector_of)) {
     Keypoint& keypoint = keypoints.emplace_back();
-    keypoint.bearing = sphere.unproject(section.to_panorama(chosen[i].pt)).cast<float>();
-    keypoint.size_px = static_cast<float>(chosen[i].size * section.scale);
-    const float* row = descriptors.ptr<float>(static_cast<int>(i));
-    std::transform(row, row + 128, keypoint.descriptor.begin(),
-                   [](float value) { return cv::saturate_cast<uchar>(value); });
+    keypoint.bearing = sphere.unproject(section.to_panorama(feature.keypoint.pt)).cast<float>();
+    keypoint.size_px = static_cast<float>(feature.keypoint.size * section.scale);
+    keypoint.descriptor = feature.descriptor;
   }
   return keypoints;
 }

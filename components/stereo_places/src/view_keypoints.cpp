@@ -2,14 +2,13 @@
 #include "panvo/stereo_places/view_keypoints.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <stdexcept>
-#include <tuple>
 
+#include "panvo/landmarks/sift.hpp"
 #include "panvo/vision/image_pyramid.hpp"
 
 namespace panvo::stereo_places {
@@ -18,7 +17,6 @@ namespace {
 using landmarks::Keypoint;
 
 constexpr int kStripes = 8;  // of the image's width, each with an equal share of the keypoints
-constexpr int kSurplus = 2;  // detected per keypoint kept, so that every stripe has a choice
 constexpr int kLevels = 4;
 constexpr double kMaxDisparity_px = -1.0;    // infinity, with a margin, as of the odometry's matches
 constexpr double kMinCorrelation = 0.8;      // likewise
@@ -28,50 +26,18 @@ constexpr double kDisparityFloor_px = 0.25;  // of a blob's centre, which may li
 constexpr double kFarSigmas = 4.0;           // a disparity below is noise
 constexpr double kPanoramaColumns = 1080.0;  // Keypoint::size_px refers to them
 
-bool is_stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
-  if (a.response != b.response) return a.response > b.response;
-  return std::tie(a.pt.y, a.pt.x, a.size, a.angle) < std::tie(b.pt.y, b.pt.x, b.size, b.angle);
-}
-
-/// Keypoints with several orientations become one.
-void set_upright(std::vector<cv::KeyPoint>& keypoints) {
-  for (auto& keypoint : keypoints) keypoint.angle = 0.0F;
-  std::sort(keypoints.begin(), keypoints.end(), is_stronger);
-  const auto is_same = [](const auto& a, const auto& b) { return a.pt == b.pt && a.size == b.size; };
-  keypoints.erase(std::unique(keypoints.begin(), keypoints.end(), is_same), keypoints.end());
-}
-
-/// The strongest ones, with an equal share for each stripe first.
-std::vector<cv::KeyPoint> choose(std::vector<cv::KeyPoint> found, int width, int most) {
-  std::sort(found.begin(), found.end(), is_stronger);
-  const int share = (most + kStripes - 1) / kStripes;
-  std::array<int, kStripes> taken{};
-  std::vector<cv::KeyPoint> chosen, others;
-  for (const auto& keypoint : found) {
-    const int stripe =
-        std::clamp(static_cast<int>(keypoint.pt.x * kStripes / static_cast<float>(width)), 0, kStripes - 1);
-    (taken[static_cast<std::size_t>(stripe)]++ < share ? chosen : others).push_back(keypoint);
-  }
-  chosen.insert(chosen.end(), others.begin(), others.end());
-  if (chosen.size() > static_cast<std::size_t>(most)) chosen.resize(static_cast<std::size_t>(most));
-  std::sort(chosen.begin(), chosen.end(), is_stronger);
-  return chosen;
-}
-
 /// Pixel of the full image of a point in the reduced one: both have pixel centres at integers.
 Eigen::Vector2d to_full(const cv::Point2f& point, int factor) {
   const auto full = [&](float value) { return (static_cast<double>(value) + 0.5) * factor - 0.5; };
   return {full(point.x), full(point.y)};
 }
 
-Keypoint to_keypoint(const cv::KeyPoint& found, const float* descriptor, int factor,
-                     const vision::PinholeCamera& camera) {
+Keypoint to_keypoint(const landmarks::SiftFeature& feature, int factor, const vision::PinholeCamera& camera) {
   Keypoint keypoint;
-  keypoint.bearing = camera.unproject(to_full(found.pt, factor)).normalized().cast<float>();
-  const double radians = static_cast<double>(found.size) * factor / camera.fx;
+  keypoint.bearing = camera.unproject(to_full(feature.keypoint.pt, factor)).normalized().cast<float>();
+  const double radians = static_cast<double>(feature.keypoint.size) * factor / camera.fx;
   keypoint.size_px = static_cast<float>(radians * kPanoramaColumns / (2.0 * std::numbers::pi));
-  std::transform(descriptor, descriptor + 128, keypoint.descriptor.begin(),
-                 [](float value) { return cv::saturate_cast<uchar>(value); });
+  keypoint.descriptor = feature.descriptor;
   return keypoint;
 }
 
@@ -94,17 +60,13 @@ std::vector<Keypoint> detect_view_keypoints(const cv::Mat& left, const vision::P
     cv::resize(left(cv::Rect(0, 0, factor * size.width, factor * size.height)), reduced, size, 0.0, 0.0,
                cv::INTER_AREA);
   }
-  const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, parameters.min_contrast);
-  std::vector<cv::KeyPoint> found;
-  sift->detect(reduced, found);
-  if (parameters.upright) set_upright(found);
-  auto chosen = choose(std::move(found), reduced.cols, parameters.most);
-  if (chosen.empty()) return {};
-  cv::Mat descriptors;
-  sift->compute(reduced, chosen, descriptors);
+  const auto stripe_of = [&](const cv::KeyPoint& keypoint) {
+    return std::optional(static_cast<int>(keypoint.pt.x * kStripes / static_cast<float>(reduced.cols)));
+  };
   std::vector<Keypoint> keypoints;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    keypoints.push_back(to_keypoint(chosen[i], descriptors.ptr<float>(static_cast<int>(i)), factor, camera));
+  const landmarks::SiftRule rule{parameters.most, parameters.min_contrast, parameters.upright, kStripes};
+  for (const auto& feature : landmarks::detect_sift(reduced, rule, stripe_of)) {
+    keypoints.push_back(to_keypoint(feature, factor, camera));
   }
   return keypoints;
 }
