@@ -17,6 +17,7 @@
 #include "panvo/interfaces/fleet_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/testing.hpp"
 
 namespace panvo::fleet {
@@ -175,6 +176,16 @@ TEST_F(FleetOfComponents, SharesOneFrameAmongThreeRobots) {
   ASSERT_TRUE(published);
   EXPECT_LT(vision::pose_error(*published, final_of("three")).norm(), 0.3) << "joined while it drove";
   EXPECT_EQ(poses["three"]->back()->header().frame_id(), "fleet");
+}
+
+TEST(FleetComponent, NeedsANameOfTheRobot) {
+  runtime::ComponentHarness harness;
+  try {
+    harness.load("panvo_fleet", "FleetComponent", {});
+    ADD_FAILURE() << "a robot without a name";
+  } catch (const runtime::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("robot is empty: give each robot a name of its own, robot:=NAME"));
+  }
 }
 
 TEST_F(FleetOfComponents, NamesTwoRobotsOfOneName) {
