@@ -4,32 +4,41 @@
 
 source "$PANVO_SCRIPTS/lib/routes.sh"
 
-# simulated_dataset ROUTE SEED EFFECTS: path of the data set of a simulated drive; renders it if it is missing or incomplete. The name
-# contains a hash of route, simulator and options; data sets of other simulator versions are deleted.
+# simulated_dataset ROUTE SEED EFFECTS: path of the data set of a simulated drive.
 simulated_dataset() {
-  local seed=$2 effects=$3 route simulate folder name key dataset
+  local name=$1-seed$2 route
   # A good stereo calibration that has aged for months; with an exact one, odometry hardly drifts.
-  local -a rig=(--calibration-error 1)
+  local -a options=(--calibration-error 1)
   route=$(route_file "$1")
+  if [[ $3 != none ]]; then
+    name=$1-$3-seed$2
+    options+=(--effects "$3")
+  fi
+  rendered_dataset "$name" --route "$route" "${options[@]}" --seed "$2"
+}
+
+# simulated_panoramas JUNCTIONS SEED: path of the data set of a random route over so many junctions, without stereo images.
+simulated_panoramas() { rendered_dataset "random$1-seed$2" --random "$1" --cameras panorama --seed "$2"; }
+
+# rendered_dataset NAME OPTION...: path of what panvo_simulate renders with these options; renders it if it is missing or incomplete. The
+# folder's name contains a hash of simulator, options and their files; data sets of other simulator versions are deleted.
+rendered_dataset() {
+  local name=$1 simulate folder key dataset option
+  shift
   simulate=$(program panvo_simulate)
   folder=${XDG_CACHE_HOME:-$HOME/.cache}/panvo/simulated
   ! in_checkout || folder=$PANVO_HOME/runs/simulated
-  name=$1-seed$seed
-  if [[ $effects != none ]]; then
-    name=$1-$effects-seed$seed
-    rig+=(--effects "$effects")
-  fi
   key=$({
     mapfile -t libraries < <(simulation_libraries "$simulate")
-    cat "$route" "$simulate" "${libraries[@]}"
-    echo "${rig[@]}"
+    cat "$simulate" "${libraries[@]}"
+    for option; do if [[ -f $option ]]; then cat "$option"; else echo "$option"; fi; done
   } | sha256sum | cut -c 1-12)
   dataset=$folder/$name-$key
   if [[ ! -f $dataset/sequence.yaml ]]; then
     mkdir -p -- "$folder" || fail "cannot create '$folder'; name a recording with --dataset"
     find "$folder" -maxdepth 1 -name "$name-*" ! -name "*-$key*" -exec rm -rf {} +
-    note "simulating the route '$1' into $dataset"
-    "$simulate" --route "$route" "${rig[@]}" --seed "$seed" --out "$dataset" >&2 || fail "the simulation failed, see the message above"
+    note "simulating the drive '$name' into $dataset"
+    "$simulate" "$@" --out "$dataset" >&2 || fail "the simulation failed, see the message above"
   fi
   printf '%s' "$dataset"
 }

@@ -3,12 +3,14 @@
 # summary: run the benchmarks
 
 source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/accuracy.sh"
 source "$PANVO_SCRIPTS/lib/endurance.sh"
 source "$PANVO_SCRIPTS/lib/faults.sh"
 
 verb_usage() {
   cat <<'EOT'
 usage: panvo bench [NAME...] [-- argument...]
+       panvo bench accuracy [option...]         errors over simulated drives, with intervals (panvo bench accuracy --help)
        panvo bench faults [option...]           fault injection into the whole system (panvo bench faults --help)
        panvo bench endurance [option...]        hours of driving, checks for leaks (panvo bench endurance --help)
        panvo bench report [--quick] [--out FILE]  measures accuracy on recordings and all times; writes them as one Markdown page
@@ -21,21 +23,12 @@ EOT
 
 verb_main() {
   require_checkout
-  if [[ ${1:-} == faults ]]; then
-    shift
-    bench_faults "$@"
-    return
-  fi
-  if [[ ${1:-} == endurance ]]; then
-    shift
-    bench_endurance "$@"
-    return
-  fi
-  if [[ ${1:-} == report ]]; then
-    shift
-    bench_report "$@"
-    return
-  fi
+  case ${1:-} in
+    accuracy | endurance | faults | report)
+      "bench_$1" "${@:2}"
+      return
+      ;;
+  esac
   local -a names=() arguments=()
   while (($#)); do
     case $1 in

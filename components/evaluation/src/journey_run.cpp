@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/evaluation/journey_run.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -48,6 +49,15 @@ void read_table(std::vector<Entry>& entries, JourneyRun& run, const std::string&
                 const std::vector<std::string>& columns, Entry (*entry_of)(const CsvRow&)) {
   if (!fs::exists(run.folder / name)) return run.missing.push_back(name);
   for (const auto& row : read_csv(run.folder / name, columns)) entries.push_back(entry_of(row));
+}
+
+/// Files of sightings are not written in a run without any: then nothing is missing.
+void forgive_sightings(JourneyRun& run) {
+  const bool has_matches = fs::exists(run.folder / "matches.csv");
+  const bool has_seen = std::any_of(run.matches.begin(), run.matches.end(),
+                                    [](const RunMatch& match) { return match.state == "matched"; });
+  if (!has_matches || has_seen) return;
+  std::erase_if(run.missing, [](const auto& name) { return name == "corrections.csv" || name == "outcomes.csv"; });
 }
 
 std::string plain(const Json& json) { return json.is_string() ? json.get<std::string>() : json.dump(); }
@@ -114,6 +124,7 @@ JourneyRun read_journey_run(const fs::path& folder) {
              with_pose({"stamp_ns", "landmark_id", "state", "inliers", "reason"}, ""), correction_of);
   read_table(run.outcomes, run, "outcomes.csv",
              with_pose(with_pose({"stamp_ns", "landmark_id", "outcome", "reason"}, "before_"), "after_"), outcome_of);
+  forgive_sightings(run);
   read_table(run.azimuths, run, "azimuth.csv", {"stamp_ns", "from_stamp_ns", "azimuth_change_rad", "valid"},
              azimuth_of);
   read_table(run.qualities, run, "quality.csv", {"stamp_ns", "reliable"}, quality_of);

@@ -12,6 +12,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 class JourneyFiles : public MadeJourney {
  protected:
@@ -35,7 +36,15 @@ TEST_F(JourneyFiles, AreReadWithTheirQuotes) {
   EXPECT_EQ(run.azimuths.size(), 100U);
 }
 
+TEST_F(JourneyFiles, OfSightingsAreNotMissingWhereThereWasNone) {
+  for (const char* name : {"corrections.csv", "outcomes.csv"}) std::filesystem::remove(folder_ / "run" / name);
+  EXPECT_THAT(read_journey_run(folder_ / "run").missing, IsEmpty());
+  write_matches(fmt::format("{},matched,1,0,,,,1,0,0,\n", stamp(1)));
+  EXPECT_THAT(read_journey_run(folder_ / "run").missing, ElementsAre("corrections.csv", "outcomes.csv"));
+}
+
 TEST_F(JourneyFiles, ThatAreMissingAreNamed) {
+  write_matches(fmt::format("{},matched,1,0,,,,1,0,0,\n", stamp(1)));
   for (const char* name : {"outcomes.csv", "timing.json", "summary.json", "odometry_enhanced_covariance.csv"}) {
     std::filesystem::remove(folder_ / "run" / name);
   }

@@ -145,7 +145,7 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
   const bool is_confirmed = asking_ && confirms(now, *asking_);
   if (is_far) return judge_far(std::move(verdict), now, is_confirmed);
   if (sighting.stands_alone) {
-    if (!is_confirmed) verdict.objection = "first sighting, waiting for confirmation by a second panorama";
+    if (!is_confirmed) verdict.objection = "first sighting, waiting for confirmation by a second view";
   } else if (!is_placed) {
     verdict.objection = "low-inlier match, and the expected position is unknown";
   } else if (!is_expected) {
@@ -163,7 +163,7 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
 Localizer::Verdict Localizer::judge_far(Verdict verdict, const PendingRelocalization& now, bool is_confirmed) const {
   const auto far = fmt::format("chi-square {:.0f}, gate {:.0f}", verdict.chi_square, parameters_.gate_chi_square);
   if (!is_confirmed) {
-    verdict.objection = far + ": waiting for confirmation by a second panorama";
+    verdict.objection = far + ": waiting for confirmation by a second view";
     return verdict;
   }
   if (verdict.chi_square <= parameters_.second_look_gate_ratio * parameters_.gate_chi_square) return verdict;

@@ -42,7 +42,7 @@ TEST(LocalizerBelief, DoesNotBelieveAFarJumpBeforeASecondPanoramaAsksForIt) {
   const auto before = round.localizer.latest();
   const auto correction = round.localizer.add(wrong);
   EXPECT_EQ(correction.kind, CorrectionKind::kRejected);
-  EXPECT_NE(correction.reason.find("second panorama"), std::string::npos) << correction.reason;
+  EXPECT_NE(correction.reason.find("second view"), std::string::npos) << correction.reason;
   EXPECT_TRUE(round.localizer.latest().map_from_base.isApprox(before.map_from_base));
   // an inconsistent second sighting does not confirm it
   round.localizer.add(round.drive.step());
