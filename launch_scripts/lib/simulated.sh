@@ -6,19 +6,24 @@ source "$PANVO_SCRIPTS/lib/routes.sh"
 
 # simulated_dataset ROUTE SEED EFFECTS: path of the data set of a simulated drive.
 simulated_dataset() {
-  local name=$1-seed$2 route
+  local name route
   # A good stereo calibration that has aged for months; with an exact one, odometry hardly drifts.
   local -a options=(--calibration-error 1)
   route=$(route_file "$1")
+  name=$(basename "$route" .yaml)
   if [[ $3 != none ]]; then
-    name=$1-$3-seed$2
+    name+=-$3
     options+=(--effects "$3")
   fi
-  rendered_dataset "$name" --route "$route" "${options[@]}" --seed "$2"
+  rendered_dataset "$name-seed$2" --route "$route" "${options[@]}" --seed "$2"
 }
 
-# simulated_panoramas JUNCTIONS SEED: path of the data set of a random route over so many junctions, without stereo images.
-simulated_panoramas() { rendered_dataset "random$1-seed$2" --random "$1" --cameras panorama --seed "$2"; }
+# simulated_panoramas ROUTE SEED: path of the data set of a simulated drive without stereo images.
+simulated_panoramas() {
+  local route
+  route=$(route_file "$1")
+  rendered_dataset "$(basename "$route" .yaml)-panoramas-seed$2" --route "$route" --cameras panorama --seed "$2"
+}
 
 # rendered_dataset NAME OPTION...: path of what panvo_simulate renders with these options; renders it if it is missing or incomplete. The
 # folder's name contains a hash of simulator, options and their files; data sets of other simulator versions are deleted.

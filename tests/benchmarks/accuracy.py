@@ -90,7 +90,8 @@ def summary(values, digits):
 
 
 def revisits(drives, key):
-    return [row[key] for drive in drives for row in drive.journey["revisits"]["rows"] if row["result"] == "corrected"]
+    """Magnitudes of an error just after each corrected revisit."""
+    return [abs(row[key]) for drive in drives for row in drive.journey["revisits"]["rows"] if row["result"] == "corrected"]
 
 
 COLUMNS = ("drives", "system", "n", "path, m", "horizontal error, m", "% of the way", "heading, deg", "after a revisit, m", "heading after, deg",

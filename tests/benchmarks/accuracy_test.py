@@ -16,7 +16,7 @@ import json, pathlib, sys
 out, recording = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[3])
 error = float((recording / "error").read_text())
 path = lambda error: {"flat_rms_m": error, "flat_percent_of_way": error / 2, "heading_rms_deg": 10 * error}
-rows = [{"result": "corrected", "after_m": error, "after_heading_deg": 2 * error}, {"result": "missed", "after_m": None, "after_heading_deg": None}]
+rows = [{"result": "corrected", "after_m": error, "after_heading_deg": -2 * error}, {"result": "missed", "after_m": None, "after_heading_deg": None}]
 out.mkdir(parents=True, exist_ok=True)
 (out / "journey.json").write_text(json.dumps({"run": {
     "paths": {"travelled_m": 200.0, "duration_s": 50.0, "binocular": path(2 * error), "enhanced": path(error), "nees": {"plane": {"mean": 2.0}}},

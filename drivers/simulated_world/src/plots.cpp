@@ -51,6 +51,14 @@ class Planner {
   }
 
  private:
+  /// What to place there: of its own, or in rows as everywhere on the campus.
+  Wish wish_for(PlotUse use, Random& random) const {
+    const Wish wish = draw_wish(use, random);
+    if (!site_.parameters.rows) return wish;
+    Random common = random_.part(6).part(static_cast<std::uint64_t>(use));
+    return draw_wish(use, common);
+  }
+
   /// Places at most one per side of a road, with that probability.
   void place_some(PlotUse use, double probability, std::uint64_t purpose) {
     for (int road = 0; road < static_cast<int>(site_.roads.roads.size()); ++road) {
@@ -59,7 +67,7 @@ class Planner {
         if (!random.chance(probability)) continue;
         const double length = length_of(site_.roads.roads[static_cast<std::size_t>(road)]);
         for (int attempt = 0; attempt < 12; ++attempt) {
-          if (try_to_place(draw_wish(use, random),
+          if (try_to_place(wish_for(use, random),
                            roadside(site_.roads, road, random.uniform(0.25, 0.75) * length, is_left)))
             break;
         }
@@ -77,12 +85,13 @@ class Planner {
             is_town(roadside(site_.roads, road, 0.5 * length, is_left).at(10.0)) ? PlotUse::kTown : PlotUse::kHouse;
         double along = 4.0;
         while (along < length - 4.0) {
-          Wish wish = draw_wish(use, random);
+          const Wish wish = wish_for(use, random);
           const Roadside place = roadside(site_.roads, road, along + 0.5 * wish.width_m, is_left);
-          if (random.chance(0.08)) {  // a gap
+          if (random.chance(0.08) && !site_.parameters.rows) {  // a gap
             along += wish.width_m;
           } else if (try_to_place(wish, place)) {
-            along += wish.width_m + kGapBetweenPlots_m + random.uniform(0.0, 5.0);
+            const double further_m = random.uniform(0.0, 5.0);
+            along += wish.width_m + kGapBetweenPlots_m + (site_.parameters.rows ? 0.0 : further_m);
           } else {
             along += 2.0;
           }

@@ -116,7 +116,26 @@ Light light_at(double hour, double cloud_cover) {
   return light;
 }
 
+Light overcast_light_at(double hour) {
+  Light light = light_at(hour, 1.0);
+  light.sky += light.sun * std::max(light.to_sun.z(), 0.0f);  // what passes the clouds comes from all sides
+  light.sun.setZero();
+  light.overcast = true;
+  return light;
+}
+
+namespace {
+
+/// Radiance of an overcast sky at height `up`: three times as bright overhead as at the horizon, after Moon and Spencer
+/// 1942, with the mean that `sky` states.
+Eigen::Vector3f overcast_radiance(float up, const Light& light) {
+  return light.sky * (3.0f / 7.0f * (1.0f + 2.0f * std::clamp(up, 0.0f, 1.0f)));
+}
+
+}  // namespace
+
 Eigen::Vector3f haze(const Light& light) {
+  if (light.overcast) return overcast_radiance(0.0f, light);
   // Because of the long path through air, whiter and brighter than the sky overhead.
   const float grey = light.sky.mean();
   return (mixed_light(light.sky.array(), Eigen::Array3f::Constant(grey), 0.45f) * 1.9f + 0.16f * light.sun.array())
@@ -189,7 +208,9 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
   const float up = direction.z();
   const Eigen::Array3f far = haze(light).array();
   Eigen::Array3f colour;
-  if (up > 0.0f) {
+  if (up > 0.0f && light.overcast) {
+    colour = overcast_radiance(up, light).array();
+  } else if (up > 0.0f) {
     const float cosine = direction.dot(light.to_sun);
     const Eigen::Vector4f cloud = cloud_at(*clouds_, direction, spread_rad);
     colour = with_cloud(clear_sky(up, cosine, light), cloud, up, cosine, light);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 #include <set>
+#include <vector>
 
 #include "../src/buildings/facade.hpp"
 #include "../src/plots.hpp"
@@ -31,6 +33,26 @@ TEST(Plots, OverlapExactlyWhenNoSideSeparatesThem) {
   // a rotated square extends 5 sqrt(2) along x
   EXPECT_TRUE(overlap(plot, plot_at(12.0, 0, 10, 10, std::numbers::pi / 4.0), 0.0));
   EXPECT_FALSE(overlap(plot, plot_at(12.1, 0, 10, 10, std::numbers::pi / 4.0), 0.0));
+}
+
+TEST(Buildings, OfOneUseAreAlikeInRows) {
+  Site site = crossroads();
+  site.parameters.rows = true;
+  std::map<PlotUse, std::set<double>> widths;
+  std::map<PlotUse, std::set<std::size_t>> corners;
+  std::vector<PlannedPlot> built;
+  for (const auto& planned : plan_plots(site)) {
+    widths[planned.use].insert(planned.plot.size.x());
+    if (planned.use != PlotUse::kOpen) built.push_back(planned);
+  }
+  Scene scene;
+  scene.palette = site.palette;
+  build_buildings(site, scene);
+  ASSERT_EQ(scene.fixed.size(), built.size());
+  ASSERT_GE(built.size(), 12u);
+  for (std::size_t i = 0; i < built.size(); ++i) corners[built[i].use].insert(scene.fixed[i].vertices.size());
+  for (const auto& [use, of_use] : widths) EXPECT_EQ(of_use.size(), 1u) << static_cast<int>(use);
+  for (const auto& [use, of_use] : corners) EXPECT_EQ(of_use.size(), 1u) << static_cast<int>(use);
 }
 
 TEST(Plots, ArePlannedAlongRoadsButNeitherOnThemNorOnEachOther) {

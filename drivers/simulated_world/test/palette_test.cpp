@@ -44,6 +44,26 @@ TEST(Palette, HasEveryMaterialOfTheCampus) {
   }
 }
 
+TEST(Palette, HasTwigsInPlaceOfLeavesInWinter) {
+  const Palette bare(kSeed, {}, Season::kBare);
+  const auto covered = [](const Palette& from, std::string_view name) {
+    return from.materials()[from.find(name)].albedo->mean().w();
+  };
+  for (const char* name : {"leaves_broad", "leaves_small"}) {
+    EXPECT_LT(covered(bare, name), 0.5f * covered(palette(), name)) << name;
+    EXPECT_GT(covered(bare, name), 0.01f) << name;
+  }
+  EXPECT_EQ(covered(bare, "leaves_needle"), covered(palette(), "leaves_needle"));
+}
+
+TEST(Palette, HasSnowInWinterOnly) {
+  const Palette winter(kSeed, {}, Season::kSnow);
+  for (const auto& material : palette().materials()) EXPECT_EQ(material.snow, 0.0f) << material.name;
+  EXPECT_EQ(winter.materials()[winter.find("grass")].snow, 1.0f);
+  EXPECT_LT(winter.materials()[winter.find("asphalt")].snow, 0.5f);
+  EXPECT_EQ(winter.materials()[winter.find("glass")].snow, 0.0f);
+}
+
 TEST(Palette, NamesTheMaterialItDoesNotHave) {
   try {
     palette().find("marble");

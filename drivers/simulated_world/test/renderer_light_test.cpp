@@ -26,6 +26,28 @@ TEST(Renderer, ShadesAWhiteSurfaceAsTheLightSays) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at<cv::Vec3f>(120, 160)[c], expected[c], 0.01);
 }
 
+TEST(Renderer, LaysSnowOnWhatFacesUpwards) {
+  static const auto winter = std::make_shared<const Palette>(1, "", Season::kSnow);
+  auto scene = empty_scene();
+  auto snowy = empty_scene();
+  snowy->palette = winter;
+  for (const auto& one : {scene, snowy}) {
+    Mesh mesh;
+    add_square(mesh, Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), 200.0f, {}, 0.0f, "grass");
+    add_square(mesh, {10.0f, 0.0f, 2.0f}, -Eigen::Vector3f::UnitX(), 4.0f, {}, 0.0f, "brick_red");
+    one->fixed.push_back(mesh);
+  }
+  Light light = plain_light();
+  light.ground.setZero();
+  const auto pose = looking({0.0, 0.0, 1.5});
+  const auto of = [&](const std::shared_ptr<Scene>& from) {
+    return Renderer(from).render(pinhole_rays(camera()), still(pose), light, {}, {});
+  };
+  const auto bare = of(scene), white = of(snowy);
+  EXPECT_GT(grey(white, 220, 160), 2.0f * grey(bare, 220, 160));    // the ground in front
+  EXPECT_NEAR(grey(white, 110, 160), grey(bare, 110, 160), 1e-3f);  // the wall
+}
+
 /// Brightness of the ground at a place, relative to open ground.
 double relative_brightness(Renderer& renderer, const Eigen::Vector3d& place, const Light& light,
                            std::span<const MovingPlacement> movers = {}) {

@@ -61,6 +61,36 @@ TEST(LightAt, TurnsSunlightIntoSkylightUnderACloud) {
             0.7f * (clear.sun * clear.to_sun.z() + clear.sky).mean());
 }
 
+TEST(LightAt, IsWithoutSunAndDimmerOnAnOvercastDay) {
+  const Light clear = light_at(11.0, 0.0);
+  const Light covered = overcast_light_at(11.0);
+  EXPECT_EQ(covered.sun.norm(), 0.0f);
+  const float open = (clear.sun * clear.to_sun.z() + clear.sky).mean();
+  EXPECT_LT(covered.sky.mean(), 0.7f * open);
+  EXPECT_GT(covered.sky.mean(), 0.3f * open);
+}
+
+TEST(Sky, IsThreeTimesAsBrightOverheadOnAnOvercastDay) {
+  const Light light = overcast_light_at(10.0);
+  const float high = sky().radiance(Eigen::Vector3f::UnitZ(), light, kPixel).mean();
+  EXPECT_NEAR(high / sky().radiance(towards(1.0f, 0.1f), light, kPixel).mean(), 3.0f / (1.0f + 2.0f * std::sin(0.1f)),
+              0.01f);
+  EXPECT_NEAR(sky().radiance(light.to_sun, light, kPixel).mean(),
+              sky().radiance(towards(2.0f, std::asin(light.to_sun.z())), light, kPixel).mean(),
+              1e-4f);  // no sun to see
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  float weights = 0.0f;
+  for (float elevation = 0.005f; elevation < 1.57f; elevation += 0.01f) {
+    const float weight = std::cos(elevation) * std::sin(elevation);
+    sum += weight * light.sky * (3.0f / 7.0f * (1.0f + 2.0f * std::sin(elevation)));
+    weights += weight;
+    if (elevation < 0.1f) continue;  // hills and trees
+    const Eigen::Vector3f seen = sky().radiance(towards(1.0f, elevation), light, kPixel);
+    EXPECT_NEAR((seen - light.sky * (3.0f / 7.0f * (1.0f + 2.0f * std::sin(elevation)))).norm(), 0.0f, 1e-4f);
+  }
+  EXPECT_NEAR((sum / weights - light.sky).norm(), 0.0f, 0.01f);  // the light is the sky's mean
+}
+
 TEST(Sky, IsBlueOverheadAndBrighterAtTheHorizon) {
   const Light light = light_at(10.0, 0.0);
   const Eigen::Vector3f low = around(0.12f, light);

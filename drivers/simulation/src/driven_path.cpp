@@ -242,6 +242,11 @@ std::vector<Vector2d> evenly(const std::vector<Vector2d>& points) {
 }
 
 // Convolution with a Gaussian; the line is extended at both ends by its point reflection.
+void keep_left(Leg& leg, double left_m) {
+  leg.offset_m -= left_m;
+  for (std::size_t i = 0; i < leg.lane.size(); ++i) leg.lane[i] += left_m * left_of(leg.ways[i]);
+}
+
 std::vector<Vector2d> smoothed(const std::vector<Vector2d>& points) {
   const auto reach = static_cast<int>(std::ceil(4.0 * kSmoothing_m / kStep_m));
   std::vector<double> weights;
@@ -268,8 +273,9 @@ std::vector<Vector2d> smoothed(const std::vector<Vector2d>& points) {
 
 }  // namespace
 
-DrivenPath drive(const RoadNetwork& roads, const Route& route) {
+DrivenPath drive(const RoadNetwork& roads, const Route& route, double left_m) {
   std::vector<Leg> legs = legs_of(roads, route);
+  for (auto& leg : legs) keep_left(leg, left_m);
   std::vector<std::vector<Vector2d>> joints;
   for (std::size_t i = 0; i + 1 < legs.size(); ++i) {
     const bool back = roads.junctions[static_cast<std::size_t>(legs[i].to)].roads.size() == 1;

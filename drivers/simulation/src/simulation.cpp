@@ -59,11 +59,12 @@ vision::StereoCalibration aged(const vision::StereoCalibration& published, doubl
 
 Simulation::Simulation(const SimulationParameters& parameters) : parameters_(parameters) {
   // Everything that may be rejected comes before building the campus, which takes time.
-  const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, hour, assets, start_s, duration_s,
+  const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, day, rows, assets, start_s, duration_s,
                stereo, panorama, stamp, quality] = parameters_;
-  const auto path = drive(simulated_world::campus_roads(seed), route);
-  motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness), motion, seed);
-  weather_ = std::make_unique<Weather>(hour, motion_->duration_s(), effects, seed);
+  const std::uint64_t own = day.seed.value_or(seed);
+  const auto path = drive(simulated_world::campus_roads(seed), route, day.left_m);
+  motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness), motion, own);
+  weather_ = std::make_unique<Weather>(day.hour, motion_->duration_s(), effects, own, day.overcast);
   plan_instants();
 
   const LensEffects lens{effects.rain ? 0.6 : 0.0, effects.smear ? 0.7 : 0.0};
@@ -71,7 +72,7 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
                               const Eigen::Isometry3d& base_from_camera, const SensorParameters& sensor,
                               std::string_view name) {
     const cv::Size size(rays.width, rays.height);
-    cameras.push_back({std::move(rays), base_from_camera, Sensor(sensor, lens, size, Random(seed, name).bits())});
+    cameras.push_back({std::move(rays), base_from_camera, Sensor(sensor, lens, size, Random(own, name).bits())});
   };
   if (stereo) {
     auto eyes = rig.stereo;
@@ -84,9 +85,10 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
       add_camera(heads_, rays_of(rig.panorama, head), head.base_from_head, rig.panorama.sensor, head.frame_id);
     }
   }
-  campus_ = simulated_world::build_campus({.seed = seed, .hilliness = hilliness, .weak_texture = effects.weak_texture},
-                                          assets);
-  if (effects.movers) traffic_.emplace(*campus_.site, *motion_, campus_.movers, seed);
+  campus_ = simulated_world::build_campus(
+      {.seed = seed, .hilliness = hilliness, .weak_texture = effects.weak_texture, .rows = rows, .season = day.season},
+      assets);
+  if (effects.movers) traffic_.emplace(*campus_.site, *motion_, campus_.movers, own);
   renderer_ = std::make_unique<simulated_world::Renderer>(campus_.scene);
 }
 
@@ -96,7 +98,7 @@ void Simulation::plan_instants() {
   const auto& p = parameters_;
   const double end_s =
       p.duration_s > 0.0 ? std::min(p.start_s + p.duration_s, motion_->duration_s()) : motion_->duration_s();
-  const Random drops(p.seed, "dropped frames");
+  const Random drops(p.day.seed.value_or(p.seed), "dropped frames");
   const auto is_dropped = [&](std::uint64_t stream, std::uint64_t frame) {
     return p.effects.dropped_frames && drops.part(stream).part(frame).chance(kDroppedShare);
   };

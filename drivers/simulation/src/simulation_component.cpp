@@ -30,6 +30,8 @@ struct ComponentParameters {
   int seed = 1;
   double hilliness = 0.0;
   double hour = 10.5;
+  std::string season = "summer";
+  bool overcast = false;
   double vibration = 1.0;
   double calibration_error = 0.0;
   double start_s = 0.0;
@@ -49,6 +51,9 @@ struct ComponentParameters {
     field(&P::seed, "seed", "1", "seed of the world, the motion and the noise", 0, 1'000'000'000);
     field(&P::hilliness, "hilliness", "1", "0: flat, 1: hills of 8 m", 0.0, 2.0);
     field(&P::hour, "hour", "h", "hour of the day at the start", 6.0, 18.0);
+    field(&P::season, "season", "", "bare: trees without leaves; snow: also snow on what faces upwards",
+          {"summer", "bare", "snow"});
+    field(&P::overcast, "overcast", "", "a closed layer of clouds, no shadows");
     field(&P::vibration, "vibration", "1", "scale of the vehicle's vibration; 0: none", 0.0, 10.0);
     field(&P::calibration_error, "calibration_error", "1",
           "error of the published stereo calibration; 0: exact, 1: a good one after months of driving", 0.0, 100.0);
@@ -78,7 +83,9 @@ SimulationParameters to_simulation(const ComponentParameters& parameters) {
   simulation.calibration_error = parameters.calibration_error;
   simulation.seed = static_cast<std::uint64_t>(parameters.seed);
   simulation.hilliness = parameters.hilliness;
-  simulation.hour = parameters.hour;
+  simulation.day.hour = parameters.hour;
+  simulation.day.season = season_of(parameters.season);
+  simulation.day.overcast = parameters.overcast;
   simulation.assets = parameters.assets;
   simulation.start_s = parameters.start_s;
   simulation.duration_s = parameters.duration_s;

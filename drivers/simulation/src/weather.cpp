@@ -14,10 +14,11 @@ constexpr double kFairWeatherCover = 0.05;
 
 }  // namespace
 
-Weather::Weather(double hour, double duration_s, const Effects& effects, std::uint64_t seed) : hour_(hour) {
+Weather::Weather(double hour, double duration_s, const Effects& effects, std::uint64_t seed, bool overcast)
+    : hour_(hour), overcast_(overcast) {
   constexpr double kDriftHours = 2.0;
   hours_per_s_ = effects.sun_drift && duration_s > 0.0 ? kDriftHours / duration_s : 0.0;
-  if (!effects.sudden_light) return;
+  if (!effects.sudden_light || overcast) return;
   simulated_world::Random random(seed, "clouds");
   for (double t_s = random.uniform(6.0, 14.0); t_s < duration_s; t_s += random.uniform(12.0, 30.0)) {
     const double length_s = random.uniform(4.0, 12.0);
@@ -39,6 +40,7 @@ double Weather::cloud_cover(double t_s) const {
 }
 
 simulated_world::Light Weather::light(double t_s) const {
+  if (overcast_) return simulated_world::overcast_light_at(hour(t_s));
   return simulated_world::light_at(hour(t_s), cloud_cover(t_s));
 }
 

@@ -37,6 +37,8 @@ TEST(DrivenPath, KeepsToTheRightHandLane) {
     const auto nearest = roads.nearest_road(path.points[i]);
     EXPECT_NEAR(nearest.side_m, -2.0, 0.1);  // the road runs in this direction and is 8 m wide
   }
+  const DrivenPath left = drive(roads, {"test", {"clock_tower", "bookshop"}, ""}, 0.5);
+  EXPECT_NEAR(roads.nearest_road(left.points[100]).side_m, -1.5, 0.1);
   const DrivenPath back = drive(roads, {"test", {"bookshop", "clock_tower"}, ""});
   EXPECT_NEAR(roads.nearest_road(back.points[300]).side_m, 2.0, 0.1);
 }

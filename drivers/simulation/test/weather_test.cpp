@@ -36,5 +36,14 @@ TEST(Weather, ACloudTakesTheSunWithinHalfASecondAndGivesItBack) {
   }
 }
 
+TEST(Weather, OfAnOvercastDayHasNoSun) {
+  Effects effects;
+  effects.sudden_light = true;
+  const Weather weather(10.0, 600.0, effects, 3, true);
+  EXPECT_TRUE(weather.clouds().empty());
+  EXPECT_EQ(weather.light(100.0).sun.norm(), 0.0f);
+  EXPECT_TRUE(weather.light(100.0).overcast);
+}
+
 }  // namespace
 }  // namespace panvo::simulation

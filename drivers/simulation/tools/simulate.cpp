@@ -30,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 struct Options {
   fs::path route, rig, out;
   std::vector<std::string> junctions, effects;
+  std::string season = "summer";
   int random_junctions = 0;
   std::string cameras = "all", format = "jpg";
   std::vector<double> pictures_s;
@@ -85,7 +86,17 @@ void describe_options(CLI::App& app, Options& options) {
   app.add_option("--hilliness", s.hilliness, "0: flat, 1: hills of 8 m")
       ->check(CLI::Range(0.0, 2.0))
       ->capture_default_str();
-  app.add_option("--hour", s.hour, "hour of the day at the start, 6 to 18")->check(CLI::Range(6.0, 18.0));
+  app.add_option("--hour", s.day.hour, "hour of the day at the start, 6 to 18")->check(CLI::Range(6.0, 18.0));
+  app.add_option("--season", options.season, "bare: trees without leaves; snow: also snow on what faces upwards")
+      ->check(CLI::IsMember(kSeasonNames))
+      ->capture_default_str();
+  app.add_flag("--overcast", s.day.overcast, "a closed layer of clouds, no shadows");
+  app.add_option("--day", s.day.seed,
+                 "seed of vibration, noise, traffic and clouds, for another day on the same campus (default: --seed)");
+  app.add_option("--left", s.day.left_m, "drive that far to the left of the lane's middle, m")
+      ->check(CLI::Range(-1.0, 1.0))
+      ->capture_default_str();
+  app.add_flag("--rows", s.rows, "rows of equal buildings: hard to tell apart");
   app.add_option("--vibration", s.motion.vibration, "scale of the vehicle's vibration; 0: none")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
@@ -116,6 +127,7 @@ void describe_options(CLI::App& app, Options& options) {
 void complete(Options& options) {
   auto& s = options.simulation;
   s.effects = effects_of(options.effects);
+  s.day.season = season_of(options.season);
   s.stereo = options.cameras != "panorama";
   s.panorama = options.cameras != "stereo";
   if (!options.rig.empty()) s.rig = read_rig(options.rig);

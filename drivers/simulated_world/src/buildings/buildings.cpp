@@ -127,11 +127,13 @@ std::vector<Plot> build_buildings(const Site& site, Scene& scene) {
   std::uint64_t number = 0, style_number = 0;
   PlotUse last_use = PlotUse::kOpen;
   for (const auto& planned : plan_plots(site)) {
-    Random own = random.part(++number);
+    ++number;
     if (planned.use == PlotUse::kOpen) continue;  // left to build_furniture()
+    const std::uint64_t design = site.parameters.rows ? static_cast<std::uint64_t>(planned.use) : number;
+    Random own = random.part(design);
     // sometimes a twin of the neighbour
-    const bool is_twin = planned.use == last_use && own.chance(0.22);
-    if (!is_twin) style_number = number;
+    const bool is_twin = !site.parameters.rows && planned.use == last_use && own.chance(0.22);
+    if (!is_twin) style_number = design;
     last_use = planned.use;
     FacadeStyle style =
         draw_style(building_use(planned.use), *site.palette, materials, random.part(style_number).part(7));

@@ -31,7 +31,8 @@ struct MaterialRecord {
   float periods_per_m = 1.0f, overlay_periods_per_m = 1.0f;
   float gloss = 0.0f, translucency = 0.0f;
   std::uint32_t flags = 0;
-  std::array<std::uint32_t, 3> padding{};
+  float snow = 0.0f;
+  std::array<std::uint32_t, 2> padding{};
 };
 static_assert(sizeof(MaterialRecord) == 16 * sizeof(std::uint32_t));
 inline constexpr std::uint32_t kHasOverlay = 1, kOverlayIsScattered = 2, kTakesObjectTint = 4,
@@ -48,6 +49,7 @@ struct ShadingTables {
   const float* environment = nullptr;  ///< octahedral map: red, green, blue planes
   std::array<float, 3> to_sun{}, sun{}, sky{}, ground{}, haze{};
   float haze_per_m = 0.0f;
+  bool has_snow = false;
   std::array<float, 3> camera_motion{};    ///< while the shutter is open, m
   std::array<float, 9> camera_rotation{};  ///< change of a world direction in that time, row by row
   int texture_taps = 4;

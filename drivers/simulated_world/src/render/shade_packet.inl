@@ -228,6 +228,15 @@ PANVO_INLINE Vector3 albedo_of(const ShadingTables& tables, const Hit& hit, cons
   return albedo;
 }
 
+/// Snow lies on what faces upwards, from about 25 degrees off the vertical on.
+PANVO_INLINE Vector3 under_snow(const ShadingTables& tables, const Look& look, const Vector3& normal,
+                                const Vector3& albedo) {
+  const Float steepness = clamped(2.5f * normal.z - 1.25f, 0.0f, 1.0f);
+  const Float cover = steepness * gather((const float*)tables.materials + 13, look.material_words);
+  const Float white = all(0.82f);
+  return albedo + cover * (Vector3{white, white, white} - albedo);
+}
+
 /// The light that leaves the surface: sky and ground as far as visible, sun from the front or through a leaf.
 struct Radiance {
   Vector3 base, sun;
@@ -288,7 +297,8 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
   const Surface surface = surface_of(tables, traced, hit);
   const Look look = look_of(tables, hit);
   const Footprint footprint = footprint_of(tables, traced, hit, surface);
-  const Vector3 albedo = albedo_of(tables, hit, look, surface.object_tint, footprint);
+  Vector3 albedo = albedo_of(tables, hit, look, surface.object_tint, footprint);
+  if (tables.has_snow) albedo = under_snow(tables, look, surface.normal, albedo);
   const Float flat_facing = dot(surface.flat, all(tables.to_sun));
   const Radiance radiance = radiance_of(tables, hit, surface, look, albedo, flat_facing);
 

@@ -71,6 +71,8 @@ ShadingMaterials::ShadingMaterials(const Palette& palette) {
     record.periods_per_m = 1.0f / material.period_m;
     record.gloss = material.gloss;
     record.translucency = material.translucency;
+    record.snow = material.snow;
+    has_snow_ = has_snow_ || material.snow > 0.0f;
     if (material.overlay) {
       record.overlay = number_of(*material.overlay);
       record.overlay_periods_per_m = 1.0f / material.overlay_period_m;
@@ -115,6 +117,7 @@ void ShadingMaterials::fill(ShadingTables& tables) const {
   tables.materials = materials_.data();
   tables.textures = textures_.data();
   tables.texels = texels_.data();
+  tables.has_snow = has_snow_;
 }
 
 bool ShadingMaterials::is_hole(std::uint32_t material, const Eigen::Vector2f& uv, float width_m) const {
@@ -153,7 +156,7 @@ bool ShadingMaterials::is_hole(std::uint32_t material, const Eigen::Vector2f& uv
 const float* Environment::update(const Light& light) {
   const bool is_same = !map_.empty() && light.to_sun == light_.to_sun && light.sun == light_.sun &&
                        light.sky == light_.sky && light.ground == light_.ground &&
-                       light.haze_per_m == light_.haze_per_m;
+                       light.haze_per_m == light_.haze_per_m && light.overcast == light_.overcast;
   if (is_same) return map_.data();
   light_ = light;
   map_.resize(static_cast<std::size_t>(3 * kEnvironmentSide * kEnvironmentSide));

@@ -113,10 +113,11 @@ class Recipes {
         [](const Colour& c, const Random& r) { return paint_curtain(c, r); });
   }
 
-  void add_plants() {
+  void add_plants(Season season) {
+    const int broad = season == Season::kSummer ? 190 : 0, small = season == Season::kSummer ? 360 : 0;
     add("bark", 1.2f, {0.115f, 0.085f, 0.06f}, [](const Colour& c, const Random& r) { return paint_bark(c, r); });
-    add_leaves("leaves_broad", {0.105f, 0.17f, 0.045f}, {.leaves = 190, .length_m = 0.11f, .width_share = 0.72f});
-    add_leaves("leaves_small", {0.125f, 0.185f, 0.055f}, {.leaves = 360, .length_m = 0.072f, .width_share = 0.55f});
+    add_leaves("leaves_broad", {0.105f, 0.17f, 0.045f}, {.leaves = broad, .length_m = 0.11f, .width_share = 0.72f});
+    add_leaves("leaves_small", {0.125f, 0.185f, 0.055f}, {.leaves = small, .length_m = 0.072f, .width_share = 0.55f});
     add_leaves("leaves_needle", {0.055f, 0.095f, 0.045f}, {.leaves = 0, .length_m = 0.075f, .needles = 70});
     add("hedge", 1.4f, {0.06f, 0.105f, 0.028f}, [](const Colour& c, const Random& r) { return paint_hedge(c, r); });
     add("flowers", 1.4f, {}, [](const Colour&, const Random& r) { return paint_flowers(r); });
@@ -183,12 +184,12 @@ class Recipes {
 
 }  // namespace
 
-std::vector<Recipe> material_recipes() {
+std::vector<Recipe> material_recipes(Season season) {
   Recipes recipes;
   recipes.add_ground();
   recipes.add_walls();
   recipes.add_parts_of_buildings();
-  recipes.add_plants();
+  recipes.add_plants(season);
   recipes.add_objects();
   recipes.add_people();
   return recipes.take();

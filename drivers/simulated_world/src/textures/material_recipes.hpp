@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "panvo/simulated_world/palette.hpp"
 #include "panvo/simulated_world/random.hpp"
 
 namespace panvo::simulated_world {
@@ -25,6 +26,6 @@ struct Recipe {
 };
 
 /// The recipes of all materials of the campus.
-std::vector<Recipe> material_recipes();
+std::vector<Recipe> material_recipes(Season season);
 
 }  // namespace panvo::simulated_world

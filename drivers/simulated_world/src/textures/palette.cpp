@@ -42,6 +42,12 @@ Overlay make_overlay(Wear wear, const Random& random) {
   return {};
 }
 
+/// Coverage by snow of what faces upwards: traffic and clearing leave some of it on roads, nothing on glass and vehicles.
+float snow_on(const std::string& material) {
+  if (material == "glass" || material.starts_with("car_")) return 0.0f;
+  return material.starts_with("asphalt") || material.starts_with("cobbles") ? 0.35f : 1.0f;
+}
+
 /// The nearest power of two, at most 2048.
 int nearest_power_of_two(int size) {
   const auto floor = std::bit_floor(static_cast<unsigned>(std::clamp(size, 1, 2048)));
@@ -94,8 +100,8 @@ std::map<std::string, cv::Mat> read_photographs(const std::filesystem::path& ass
 
 }  // namespace
 
-Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets) {
-  const std::vector<Recipe> recipes = material_recipes();
+Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season) {
+  const std::vector<Recipe> recipes = material_recipes(season);
   const auto photographs = read_photographs(assets, recipes);
   constexpr std::array kWears{Wear::kNone, Wear::kRoad, Wear::kNewRoad, Wear::kGround, Wear::kWall, Wear::kPlaster};
   std::vector<Overlay> overlays(kWears.size());
@@ -119,6 +125,7 @@ Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets) {
     material.gloss = recipe.gloss;
     material.translucency = recipe.translucency;
     material.has_holes = recipe.has_holes;
+    if (season == Season::kSnow) material.snow = snow_on(recipe.name);
   };
   std::vector<std::exception_ptr> failures(jobs);
   cv::parallel_for_(

@@ -13,6 +13,13 @@
 
 namespace panvo::simulated_world {
 
+/// What the time of year does to the campus.
+enum class Season {
+  kSummer,
+  kBare,  ///< broad-leaved trees and shrubs have twigs only
+  kSnow,  ///< the same, and snow lies on what faces upwards; roads are cleared, not clean
+};
+
 /// The material of a surface.
 struct Material {
   std::string name;                        ///< "asphalt"
@@ -25,6 +32,7 @@ struct Material {
   float gloss = 0.0f;                      ///< reflectance at normal incidence (glass 0.04-0.1); 0: matte
   float translucency = 0.0f;               ///< fraction of sunlight transmitted from behind: leaves
   bool has_holes = false;                  ///< alpha < 0.5 is a hole
+  float snow = 0.0f;                       ///< 0..1: coverage by snow of what faces upwards
 };
 
 /// All materials of the campus. Textures are generated from the seed; photographs in the folder `assets` (NAME.jpg or
@@ -32,7 +40,7 @@ struct Material {
 /// cannot be read or has no material of its name.
 class Palette {
  public:
-  Palette(std::uint64_t seed, const std::filesystem::path& assets);
+  Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season = Season::kSummer);
 
   const std::vector<Material>& materials() const { return materials_; }
 

@@ -17,6 +17,8 @@ struct SiteParameters {
   std::uint64_t seed = 1;
   double hilliness = 0.0;     ///< see Terrain
   bool weak_texture = false;  ///< applied to the junctions marked in the network
+  bool rows = false;          ///< all buildings of one use are alike in every detail, at equal distances
+  Season season = Season::kSummer;
 };
 
 class KerbField;

@@ -16,11 +16,15 @@ struct Light {
   Eigen::Vector3f sky{0.22f, 0.26f, 0.34f};     ///< of a white surface that sees the whole upper half
   Eigen::Vector3f ground{0.10f, 0.09f, 0.08f};  ///< of a white surface that sees the whole lower half
   float haze_per_m = 4e-4f;                     ///< rate at which objects fade into the horizon's colour
+  bool overcast = false;                        ///< the sky is a closed layer of clouds
 };
 
 /// The light at an hour of the day, 6 (sunrise, east = +x) to 18, with the fraction of the sun covered by a cloud
 /// (0..1).
 Light light_at(double hour, double cloud_cover);
+
+/// The same under a closed layer of clouds, which hides the sun.
+Light overcast_light_at(double hour);
 
 /// Radiance of the sky just above the horizon, into which distant objects fade with `haze_per_m`.
 Eigen::Vector3f haze(const Light& light);

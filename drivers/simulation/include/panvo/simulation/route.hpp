@@ -25,9 +25,9 @@ struct DrivenPath {
   std::vector<double> curvature_per_m;  ///< signed, left positive
 };
 
-/// The path of a route. Throws std::invalid_argument for an unknown junction (with the valid ones) or for two junctions
-/// without a road between them.
-DrivenPath drive(const simulated_world::RoadNetwork& roads, const Route& route);
+/// The path of a route, `left_m` to the left of the lanes' middles. Throws std::invalid_argument for an unknown junction
+/// (with the valid ones) or for two junctions without a road between them.
+DrivenPath drive(const simulated_world::RoadNetwork& roads, const Route& route, double left_m = 0.0);
 
 /// A random route through `junctions` junctions that turns back only in a cul-de-sac.
 Route random_route(const simulated_world::RoadNetwork& roads, int junctions, std::uint64_t seed);

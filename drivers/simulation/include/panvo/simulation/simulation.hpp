@@ -10,6 +10,7 @@
 
 #include "panvo/simulated_world/campus.hpp"
 #include "panvo/simulated_world/renderer.hpp"
+#include "panvo/simulation/day.hpp"
 #include "panvo/simulation/effects.hpp"
 #include "panvo/simulation/revisits.hpp"
 #include "panvo/simulation/rig.hpp"
@@ -27,10 +28,11 @@ struct SimulationParameters {
   std::uint64_t seed = 1;
   double hilliness = 0.0;
   double calibration_error = 0.0;  ///< of the published stereo calibration; 1: a good one after months of driving
-  double hour = 10.5;              ///< of the day at the start, 6 to 18
-  std::filesystem::path assets;    ///< photographs in place of painted textures; empty: none
-  double start_s = 0.0;            ///< start time on the journey
-  double duration_s = 0.0;         ///< duration; 0: to the end
+  Day day;
+  bool rows = false;             ///< the campus has rows of equal buildings (see SiteParameters)
+  std::filesystem::path assets;  ///< photographs in place of painted textures; empty: none
+  double start_s = 0.0;          ///< start time on the journey
+  double duration_s = 0.0;       ///< duration; 0: to the end
   bool stereo = true, panorama = true;
   std::int64_t start_stamp_ns = 1'700'000'000'000'000'000;
   simulated_world::Renderer::Quality quality;

@@ -12,8 +12,8 @@ namespace panvo::simulation {
 /// The light during a journey: hour of the day, and clouds in front of the sun.
 class Weather {
  public:
-  /// `hour` of the day at the start (see light_at).
-  Weather(double hour, double duration_s, const Effects& effects, std::uint64_t seed);
+  /// `hour` of the day at the start (see light_at); an overcast day has no clouds that come and go.
+  Weather(double hour, double duration_s, const Effects& effects, std::uint64_t seed, bool overcast = false);
 
   simulated_world::Light light(double t_s) const;
   double hour(double t_s) const;
@@ -28,6 +28,7 @@ class Weather {
 
  private:
   double hour_, hours_per_s_;
+  bool overcast_;
   std::vector<Cloud> clouds_;
 };
 
