@@ -84,6 +84,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
   static constexpr std::int64_t kMaxGap_ns = 1'000'000'000;
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
+    stamps_ns_[message.id()] = conversions::stamp_ns(message);
     set_landmark(message.id(), message.pose().pose().position());
   }
 
@@ -94,7 +95,14 @@ class LandmarkBuilderComponent final : public runtime::Component {
 
   void set_landmark(std::uint32_t id, const geometry_msgs::msg::Point& position) {
     known_[id] = {position.x(), position.y()};
-    if (builder_) builder_->set_landmark(id, known_[id]);
+    if (builder_) tell_builder(id);
+  }
+
+  /// A landmark stamped before this run's first odometry comes from an earlier one.
+  void tell_builder(std::uint32_t id) {
+    builder_->set_landmark(id, known_.at(id));
+    const auto stamp = stamps_ns_.find(id);
+    if (stamp != stamps_ns_.end() && first_ns_ && stamp->second < *first_ns_) builder_->set_earlier(id);
   }
 
   void on_enhanced(const nav_msgs::msg::Odometry& message) {
@@ -116,6 +124,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
     }
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (!odometry_.empty() && stamp_ns <= odometry_.back().stamp_ns) return;
+    if (!first_ns_) first_ns_ = stamp_ns;
     odometry_.push_back({stamp_ns, *pose, conversions::to_matrix(message.pose().covariance())});
     if (odometry_.size() > kMaxOdometry) odometry_.pop_front();
     work_off();
@@ -209,7 +218,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
       return false;
     }
     size_ = size;
-    for (const auto& [id, position] : known_) builder_->set_landmark(id, position);
+    for (const auto& [id, position] : known_) tell_builder(id);
     return true;
   }
 
@@ -224,6 +233,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
   std::optional<LandmarkBuilder> builder_;
   cv::Size size_;
   std::map<std::uint32_t, Eigen::Vector2d> known_;  // all published landmarks, of any node
+  std::map<std::uint32_t, std::int64_t> stamps_ns_;
+  std::optional<std::int64_t> first_ns_;  // of the odometry
   std::deque<Odometry> odometry_;
   Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<std::shared_ptr<const sensor_msgs::msg::Image>> waiting_;

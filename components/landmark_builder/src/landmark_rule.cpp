@@ -15,9 +15,15 @@ void LandmarkRule::recognised(double travelled_m) {
 
 bool LandmarkRule::takes(const Eigen::Vector2d& position, double place_travelled_m) const {
   if (recognised_m_ && std::abs(place_travelled_m - *recognised_m_) <= parameters_.known_m) return false;
-  return std::none_of(positions_.begin(), positions_.end(), [&](const auto& landmark) {
-    return (landmark.second - position).norm() <= parameters_.nearby_m;
-  });
+  int nearby = 0;
+  for (const auto& [id, where] : positions_) {
+    if ((where - position).norm() > parameters_.nearby_m) continue;
+    if (!earlier_.contains(id)) return false;
+    ++nearby;
+  }
+  if (nearby == 0) return true;
+  return nearby < parameters_.appearances && recognised_m_ &&
+         place_travelled_m - *recognised_m_ <= parameters_.trusted_m;
 }
 
 bool LandmarkRule::is_due(double travelled_m) const {

@@ -23,6 +23,24 @@ TEST(LandmarkRule, TakesNoneWhereOneWasRecognisedThoughThePositionHasDrifted) {
   EXPECT_TRUE(rule.takes({60.0, 0.0}, 440.0));
 }
 
+TEST(LandmarkRule, TakesAnotherAppearanceOfAPlaceThatLooksDifferentToday) {
+  LandmarkRule rule({});
+  rule.set_landmark(1, {0.0, 0.0});
+  rule.set_landmark(2, {200.0, 0.0});
+  EXPECT_FALSE(rule.takes({200.0, 1.0}, 200.0)) << "of this run";
+  rule.set_earlier(2);
+  EXPECT_FALSE(rule.takes({200.0, 1.0}, 200.0)) << "nothing was recognised: the position may be wrong";
+  rule.recognised(10.0);
+  EXPECT_TRUE(rule.takes({200.0, 1.0}, 200.0));
+  EXPECT_FALSE(rule.takes({200.0, 1.0}, 400.0)) << "too long ago";
+  for (std::uint32_t id = 3; id <= 5; ++id) {
+    EXPECT_TRUE(rule.takes({200.0, 1.0}, 200.0));
+    rule.set_landmark(id, {201.0, 0.0});
+    rule.set_earlier(id);
+  }
+  EXPECT_FALSE(rule.takes({200.0, 1.0}, 200.0)) << "four are enough";
+}
+
 TEST(LandmarkRule, IsDueAfterALongWayWithoutOne) {  // [Lu2015 4.1]
   LandmarkRule rule({});
   rule.set_landmark(1, {0.0, 0.0});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/landmarks/landmark_store.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
@@ -21,6 +22,7 @@ using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using PoseNumbers = std::array<double, 7>;
 
 // Bytes of the fields of fixed size: id, stamp, junction, two poses.
+constexpr std::int64_t kMostUses = 1'000'000'000;
 constexpr std::uint64_t kFixedBytes = 8 + 8 + 1 + 2 * sizeof(PoseNumbers);
 
 PoseNumbers to_numbers(const Eigen::Isometry3d& a_from_b) {
@@ -202,6 +204,57 @@ void LandmarkStore::set_poses(std::span<const LandmarkPose> poses) {
       update.bind(8, covariance).bind(9, std::int64_t{pose.id}).run();
     }
     transaction.commit();
+  });
+}
+
+void LandmarkStore::remove(std::span<const std::uint32_t> ids) {
+  guarded([&] {
+    Transaction transaction(*database_);
+    const auto remove_from = [&](const std::string& table, const std::string& column) {
+      Statement statement(*database_, "DELETE FROM " + table + " WHERE " + column + " = ?");
+      for (const auto id : ids) statement.bind(1, std::int64_t{id}).run();
+    };
+    remove_from("landmark", "id");
+    remove_from("keypoints", "landmark_id");
+    remove_from("thumbnail", "landmark_id");
+    if (has_uses()) remove_from("landmark_use", "landmark_id");
+    transaction.commit();
+  });
+}
+
+bool LandmarkStore::has_uses() const {
+  return single_number(*database_, "SELECT count(*) FROM sqlite_master WHERE type='table' AND name='landmark_use'") > 0;
+}
+
+void LandmarkStore::set_uses(const std::map<std::uint32_t, LandmarkUse>& uses) {
+  guarded([&] {
+    Transaction transaction(*database_);
+    make_table_of_uses(*database_);
+    Statement known(*database_, "SELECT 1 FROM landmark WHERE id = ?");
+    Statement row(*database_, "INSERT OR REPLACE INTO landmark_use VALUES(?,?,?,?,?)");
+    for (const auto& [id, use] : uses) {
+      const bool is_known = known.bind(1, std::int64_t{id}).step();
+      known.reset();
+      if (!is_known) continue;
+      row.bind(1, std::int64_t{id}).bind(2, std::int64_t{use.passes}).bind(3, std::int64_t{use.recognitions});
+      row.bind(4, std::int64_t{use.missed}).bind(5, std::int64_t{use.missed_in_company}).run();
+    }
+    transaction.commit();
+  });
+}
+
+std::map<std::uint32_t, LandmarkUse> LandmarkStore::uses() const {
+  return guarded([&] {
+    std::map<std::uint32_t, LandmarkUse> uses;
+    if (!has_uses()) return uses;
+    Statement rows(*database_, "SELECT * FROM landmark_use");
+    while (rows.step()) {
+      const auto number = [&](int column) {
+        return static_cast<std::uint32_t>(std::clamp<std::int64_t>(rows.integer(column), 0, kMostUses));
+      };
+      uses[static_cast<std::uint32_t>(rows.integer(0))] = {number(1), number(2), number(3), number(4)};
+    }
+    return uses;
   });
 }
 

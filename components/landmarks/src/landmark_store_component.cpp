@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -10,6 +12,7 @@
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/landmarks/landmark_use.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/runtime/errors.hpp"
 
@@ -20,6 +23,8 @@ struct Parameters {
   std::string file;
   bool read_only = false;
   std::string map_frame = "map";
+  int appearances = 4;
+  int forget_after = 10;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -27,21 +32,34 @@ struct Parameters {
     field.path(&P::file, "file", "store file, created with the first landmark; empty: landmarks are not saved");
     field(&P::read_only, "read_only", "", "publish the stored landmarks, store nothing");
     field(&P::map_frame, "map_frame", "", "frame of the stored poses");
+    field(&P::appearances, "appearances", "1",
+          "landmarks at one place: others are kept where the known ones were missed on two drives", 1, 20);
+    field(&P::forget_after, "forget_after", "1",
+          "drives past a landmark without recognising it, where others of its day were recognised, after which it is "
+          "removed; 0: never",
+          0, 1000);
   }
 };
 
 /// Publishes the landmarks of a store at start, and stores new and moved ones. Poses are updated by landmarks/poses,
-/// all in one transaction, or by a landmark that is received again.
+/// all in one transaction, or by a landmark that is received again. From odometry/enhanced and correction/outcome it counts
+/// which landmarks are recognised, and lets the map follow what has changed (see landmark_use.hpp).
 class LandmarkStoreComponent final : public runtime::Component {
  public:
   explicit LandmarkStoreComponent(runtime::Context& context)
       : context_(context), parameters_(context.parameters<Parameters>()), output_(context.output(topics::kLandmarks)) {
+    rules_.appearances = parameters_.appearances;
+    rules_.forget_after = parameters_.forget_after;
     if (parameters_.file.empty()) {
       context.log().info("no file set: the landmarks of this run will not be saved");
       return;
     }
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
+    if (!parameters_.read_only) {
+      context.input(topics::kCorrectionOutcome, [this](const auto& message) { on_outcome(*message); });
+      context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_odometry(*message); });
+    }
     context.about_to_read(parameters_.file);
     try {
       if (parameters_.read_only || std::filesystem::exists(parameters_.file)) open();
@@ -54,7 +72,10 @@ class LandmarkStoreComponent final : public runtime::Component {
   struct Known {
     Eigen::Matrix4d map_from_base;
     Eigen::Matrix<double, 6, 6> covariance;
+    std::int64_t stamp_ns = 0;
   };
+
+  static constexpr double kMaxSigma_m = 2.0;  ///< of a pose that tells which landmark is passed
 
   void open() {
     // The store keeps the settings of the landmarks received; their users check whether they can use them.
@@ -62,6 +83,8 @@ class LandmarkStoreComponent final : public runtime::Component {
     if (!parameters_.read_only) {
       const auto settings = store_->settings();
       store_ = std::make_unique<LandmarkStore>(parameters_.file, settings);
+      uses_ = store_->uses();
+      forget();
     }
     const auto tell = [this](const std::string& problem) {
       context_.log().warn("{}: {}: skipped. Remedy: run panvo landmarks info --check; restore a copy of the file",
@@ -74,11 +97,55 @@ class LandmarkStoreComponent final : public runtime::Component {
         tell(error.what());
         continue;
       }
-      remember({landmark.id, landmark.map_from_base, landmark.covariance});
+      remember({landmark.id, landmark.map_from_base, landmark.covariance}, landmark.stamp_ns);
+      earlier_[landmark.id] = uses_[landmark.id];
       // The topic is latched, so subscribers may join later.
       output_.publish(to_message(landmark, store_->settings(), parameters_.map_frame));
     }
     context_.log().info("{}: {} landmarks loaded", parameters_.file, known_.size());
+  }
+
+  void forget() {
+    std::vector<std::uint32_t> outdated;
+    for (const auto& [id, use] : uses_) {
+      if (rules_.forgets(use)) outdated.push_back(id);
+    }
+    if (outdated.empty()) return;
+    store_->remove(outdated);
+    for (const auto id : outdated) uses_.erase(id);
+    context_.log().info(
+        "{}: {} landmarks removed: on their last {} passes others of their day were recognised, but not they",
+        parameters_.file, outdated.size(), parameters_.forget_after);
+  }
+
+  void on_outcome(const panvo_msgs::msg::CorrectionOutcome& message) {
+    if (message.outcome() != panvo_msgs::msg::CorrectionOutcome_Constants::REJECTED) {
+      passes_.recognised(message.landmark_id());
+    }
+  }
+
+  void on_odometry(const nav_msgs::msg::Odometry& message) {
+    if (has_failed_ || !store_ || message.header().frame_id() != parameters_.map_frame) return;
+    const auto& covariance = message.pose().covariance();
+    if (!(std::sqrt(covariance[0] + covariance[7]) < kMaxSigma_m)) return;
+    const auto& position = message.pose().pose().position();
+    std::map<std::uint32_t, LandmarkUse> changed;
+    for (const auto& pass : passes_.move_to({position.x(), position.y()})) {
+      auto& use = uses_[pass.id];
+      add(pass, use);
+      changed[pass.id] = use;
+    }
+    if (changed.empty()) return;
+    try {
+      store_->set_uses(changed);
+    } catch (const StoreError& error) {
+      fail(error);
+    }
+  }
+
+  void fail(const StoreError& error) {
+    has_failed_ = true;  // file errors persist; the rest of the system continues
+    context_.log().error("{}. No more landmarks will be stored", error.what());
   }
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
@@ -95,8 +162,7 @@ class LandmarkStoreComponent final : public runtime::Component {
       store_->require(settings);
       keep(*landmark);
     } catch (const StoreError& error) {
-      has_failed_ = true;  // file errors persist; the rest of the system continues
-      context_.log().error("{}. No more landmarks will be stored", error.what());
+      fail(error);
     } catch (const std::invalid_argument& error) {
       context_.log().warn("{}: not stored", error.what());
     }
@@ -114,8 +180,7 @@ class LandmarkStoreComponent final : public runtime::Component {
       early_.clear();
       move(*poses);
     } catch (const StoreError& error) {
-      has_failed_ = true;
-      context_.log().error("{}. No more landmarks will be stored", error.what());
+      fail(error);
     } catch (const std::invalid_argument& error) {
       context_.log().warn("{}: landmark poses are unchanged", error.what());
     }
@@ -130,8 +195,33 @@ class LandmarkStoreComponent final : public runtime::Component {
       landmark.map_from_base = early->second.map_from_base;
       landmark.covariance = early->second.covariance;
     }
+    if (!make_room_for(landmark)) return;
     store_->add(landmark);
-    remember({landmark.id, landmark.map_from_base, landmark.covariance});
+    remember({landmark.id, landmark.map_from_base, landmark.covariance}, landmark.stamp_ns);
+  }
+
+  /// Whether a landmark is kept beside those of earlier runs; removes the one that it replaces.
+  bool make_room_for(const PanoramicLandmark& landmark) {
+    std::vector<std::uint32_t> ids;
+    std::vector<LandmarkUse> beside;
+    for (const auto& [id, use] : earlier_) {
+      const Eigen::Vector3d between =
+          known_.at(id).map_from_base.topRightCorner<3, 1>() - landmark.map_from_base.translation();
+      if (between.head<2>().norm() > rules_.same_place_m) continue;
+      ids.push_back(id);
+      beside.push_back(use);
+    }
+    const auto admission = rules_.admit(beside);
+    if (!admission.is_kept) return false;
+    if (admission.instead_of) {
+      const auto outdated = ids[*admission.instead_of];
+      store_->remove(std::span(&outdated, 1));
+      earlier_.erase(outdated);
+      uses_.erase(outdated);
+      known_.erase(outdated);
+    }
+    if (!beside.empty()) context_.log().info("landmark {} is kept beside {} at its place", landmark.id, ids.front());
+    return true;
   }
 
   /// In one transaction, so that the stored map is never partly optimised.
@@ -147,7 +237,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
     if (moved.empty()) return;
     store_->set_poses(moved);
-    for (const auto& pose : moved) remember(pose);
+    for (const auto& pose : moved) remember(pose, known_.at(pose.id).stamp_ns);
   }
 
   static bool is_moved(const Known& known, const LandmarkPose& pose) {
@@ -156,8 +246,9 @@ class LandmarkStoreComponent final : public runtime::Component {
            known.covariance != pose.covariance;
   }
 
-  void remember(const LandmarkPose& pose) {
-    known_.insert_or_assign(pose.id, Known{pose.map_from_base.matrix(), pose.covariance});
+  void remember(const LandmarkPose& pose, std::int64_t stamp_ns) {
+    known_.insert_or_assign(pose.id, Known{pose.map_from_base.matrix(), pose.covariance, stamp_ns});
+    passes_.set_landmark(pose.id, pose.map_from_base.translation().head<2>(), stamp_ns);
   }
 
   runtime::Context& context_;
@@ -166,6 +257,10 @@ class LandmarkStoreComponent final : public runtime::Component {
   std::unique_ptr<LandmarkStore> store_;
   std::map<std::uint32_t, Known> known_;
   std::map<std::uint32_t, LandmarkPose> early_;  // poses of landmarks not received yet
+  UseRules rules_;
+  PassCounter passes_;
+  std::map<std::uint32_t, LandmarkUse> uses_;
+  std::map<std::uint32_t, LandmarkUse> earlier_;  // of the landmarks of earlier runs, when this one began
   bool has_failed_ = false;
 };
 

@@ -34,6 +34,13 @@ CREATE TABLE keypoints(landmark_id INTEGER PRIMARY KEY, count INTEGER NOT NULL, 
 CREATE TABLE thumbnail(landmark_id INTEGER PRIMARY KEY, jpeg BLOB NOT NULL);
 )";
 
+// Stores of earlier versions get this table with the first pass that is counted. Those versions ignore it.
+constexpr const char* kUses = R"(
+CREATE TABLE IF NOT EXISTS landmark_use(
+  landmark_id INTEGER PRIMARY KEY, passes INTEGER NOT NULL, recognitions INTEGER NOT NULL, missed INTEGER NOT NULL,
+  missed_in_company INTEGER NOT NULL);
+)";
+
 /// "truncated after ... of ... bytes" if the file is shorter than its header states; else empty. Uses SQLite's file
 /// handle: closing a second descriptor of the file would release all its locks (POSIX).
 std::string cut_off(const Database& database) {
@@ -162,6 +169,8 @@ void make_tables(Database& database) {
   database.execute("PRAGMA application_id=" + std::to_string(LandmarkStore::kApplicationId) +
                    "; PRAGMA user_version=" + std::to_string(LandmarkStore::kLayout));
 }
+
+void make_table_of_uses(Database& database) { database.execute(kUses); }
 
 void check_layout(const fs::path& file, const Database& database) {
   if (has_no_tables(database)) {

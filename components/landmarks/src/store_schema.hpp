@@ -23,6 +23,8 @@ std::unique_ptr<sqlite::Database> open_to_write(const std::filesystem::path& fil
 bool has_no_tables(const sqlite::Database& database);
 /// Throws DatabaseError.
 void make_tables(sqlite::Database& database);
+/// Adds the table of uses, unless it is there. Throws DatabaseError.
+void make_table_of_uses(sqlite::Database& database);
 /// Throws StoreError if the database is not a landmark store or has another layout version.
 void check_layout(const std::filesystem::path& file, const sqlite::Database& database);
 

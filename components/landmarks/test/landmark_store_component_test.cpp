@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+
 #include "made_up_landmark.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
@@ -115,6 +118,90 @@ TEST_F(LandmarkStoreComponent, LetsTheNextSessionBeginWithTheStraightenedMap) {
     EXPECT_TRUE(published->map_from_base.isApprox(expected[i].map_from_base, 1e-12)) << i + 1;
     EXPECT_TRUE(published->covariance.isApprox(expected[i].covariance, 1e-12)) << i + 1;
   }
+}
+
+/// A landmark at x on a road, built on that day.
+PanoramicLandmark on_road(std::uint32_t id, double x_m, int day) {
+  auto landmark = made_up_landmark(id);
+  landmark.map_from_base = Eigen::Isometry3d::Identity();
+  landmark.map_from_base.translation().x() = x_m;
+  landmark.stamp_ns += day * 86'400'000'000'000;
+  return landmark;
+}
+
+/// A drive along the road on which these landmarks are recognised.
+void drive(runtime::ComponentHarness& harness, double to_m, const std::map<std::uint32_t, double>& recognised_at) {
+  std::set<std::uint32_t> seen;
+  for (double x = 0.0; x <= to_m; x += 1.0) {
+    nav_msgs::msg::Odometry odometry;
+    odometry.header().frame_id("map");
+    odometry.pose().pose().position().x(x);
+    odometry.pose().pose().orientation().w(1.0);
+    for (int i = 0; i < 6; ++i) odometry.pose().covariance()[static_cast<std::size_t>(7 * i)] = 0.01;
+    harness.publish(topics::kOdometryEnhanced, odometry);
+    for (const auto& [id, at_m] : recognised_at) {
+      if (x < at_m || !seen.insert(id).second) continue;
+      panvo_msgs::msg::CorrectionOutcome outcome;
+      outcome.landmark_id(id);
+      outcome.outcome(panvo_msgs::msg::CorrectionOutcome_Constants::APPLIED);
+      outcome.before().orientation().w(1.0);
+      outcome.after().orientation().w(1.0);
+      harness.publish(topics::kCorrectionOutcome, outcome);
+    }
+  }
+}
+
+TEST_F(LandmarkStoreComponent, CountsWhichLandmarksAreRecognised) {
+  {
+    Session session(file_);
+    session.publish(on_road(1, 50.0, 0));
+    session.publish(on_road(2, 100.0, 0));
+    drive(session.harness, 200.0, {{1, 50.0}});
+  }
+  EXPECT_THAT(LandmarkStore(file_).uses(), testing::ElementsAre(testing::Pair(1U, LandmarkUse{1, 1, 0, 0}),
+                                                                testing::Pair(2U, LandmarkUse{1, 0, 1, 1})));
+}
+
+TEST_F(LandmarkStoreComponent, KeepsAnotherAppearanceWhereAPlaceWasMissedBefore) {
+  {
+    Session session(file_);
+    session.publish(on_road(1, 50.0, 0));
+    session.publish(on_road(2, 100.0, 0));
+  }
+  for (int day = 1; day <= 2; ++day) {
+    Session session(file_);
+    drive(session.harness, 200.0, {{1, 50.0}});
+    session.publish(on_road(3, 101.0, day));
+    EXPECT_EQ(LandmarkStore(file_).size(), day == 1 ? 2U : 3U) << "day " << day;
+  }
+}
+
+TEST_F(LandmarkStoreComponent, ForgetsALandmarkThatIsGone) {
+  {
+    LandmarkStore store(file_, made_up_settings());
+    for (const std::uint32_t id : {1U, 2U}) store.add(on_road(id, 50.0 * id, 0));
+    store.set_uses({{1, {30, 25, 5, 0}}, {2, {12, 2, 10, 10}}});
+  }
+  const Session session(file_);
+  ASSERT_EQ(session.published.size(), 1U);
+  EXPECT_EQ(session.published[0]->id(), 1U);
+  EXPECT_TRUE(session.harness.log_contains("1 landmarks removed"));
+  EXPECT_EQ(LandmarkStore(file_).size(), 1U);
+  EXPECT_EQ(LandmarkStore(file_).uses().size(), 1U);
+  EXPECT_EQ(LandmarkStore(file_).keypoints(2).size(), 0U);
+}
+
+TEST_F(LandmarkStoreComponent, CountsInAStoreOfAnEarlierVersion) {
+  {
+    LandmarkStore store(file_, made_up_settings());
+    store.add(on_road(1, 50.0, 0));
+  }
+  EXPECT_THAT(LandmarkStore(file_).uses(), IsEmpty());
+  {
+    Session session(file_);
+    drive(session.harness, 100.0, {});
+  }
+  EXPECT_EQ(LandmarkStore(file_).uses().at(1).missed, 1U);
 }
 
 TEST_F(LandmarkStoreComponent, MovesALandmarkThatComesAfterItsPose) {

@@ -47,6 +47,11 @@ StoreInfo inspect(const LandmarkStore& store, double close_m, bool look_for_dama
   info.keypoints = store.keypoint_count();
   info.bytes = store.stored_bytes();
   info.settings = store.settings();
+  for (const auto& [id, use] : store.uses()) {
+    info.passes += use.passes;
+    info.recognitions += use.recognitions;
+    info.missed += use.missed > 0;
+  }
   for (const auto* landmark : library.all()) {
     const Eigen::Vector3d position = landmark->map_from_base.translation();
     if (landmark == library.all().front()) {
@@ -93,6 +98,11 @@ std::string describe_as_text(const StoreInfo& info) {
       line("", print("%-10s %8.0f bytes", name, each(bytes, info.landmarks)));
     }
   }
+  if (info.passes > 0) {
+    line("Use:", print("passed %llu times, recognised %llu times; %zu landmarks missed on their last pass",
+                       static_cast<unsigned long long>(info.passes), static_cast<unsigned long long>(info.recognitions),
+                       info.missed));
+  }
   std::string label = "Settings:";
   for (const auto& [key, value] : info.settings) {
     line(std::exchange(label, ""), key + " = " + value);
@@ -125,6 +135,7 @@ std::string describe_as_json(const StoreInfo& info) {
   json["extent"]["y_m"] = or_null(std::array{info.smallest.y(), info.largest.y()});
   json["first_stamp_ns"] = or_null(info.first_stamp_ns);
   json["last_stamp_ns"] = or_null(info.last_stamp_ns);
+  json["use"] = {{"passes", info.passes}, {"recognitions", info.recognitions}, {"missed", info.missed}};
   json["settings"] = info.settings;
   json["close"] = nlohmann::ordered_json::array();
   for (const auto& pair : info.close) {

@@ -25,6 +25,8 @@ struct StoreInfo {
   StoredBytes bytes;                                                                      ///< all landmarks together
   Eigen::Vector2d smallest = Eigen::Vector2d::Zero(), largest = Eigen::Vector2d::Zero();  ///< corners in the map, m
   std::int64_t first_stamp_ns = 0, last_stamp_ns = 0;
+  std::uint64_t passes = 0, recognitions = 0;  ///< of all landmarks together
+  std::size_t missed = 0;                      ///< landmarks that were not recognised on their last pass
   DescriptionSettings settings;
   std::vector<ClosePair> close;       ///< in order of ids
   std::optional<std::string> damage;  ///< if damage was looked for

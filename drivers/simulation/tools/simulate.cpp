@@ -92,7 +92,8 @@ void describe_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_flag("--overcast", s.day.overcast, "a closed layer of clouds, no shadows");
   app.add_option("--day", s.day.seed,
-                 "seed of vibration, noise, traffic and clouds, for another day on the same campus (default: --seed)");
+                 "another day on the same campus: so many days later, with other vibration, noise, traffic and clouds")
+      ->check(CLI::Range(1, 10000));
   app.add_option("--left", s.day.left_m, "drive that far to the left of the lane's middle, m")
       ->check(CLI::Range(-1.0, 1.0))
       ->capture_default_str();
@@ -128,6 +129,8 @@ void complete(Options& options) {
   auto& s = options.simulation;
   s.effects = effects_of(options.effects);
   s.day.season = season_of(options.season);
+  constexpr std::int64_t kDay_ns = 86'400'000'000'000;
+  if (s.day.seed) s.start_stamp_ns += static_cast<std::int64_t>(*s.day.seed) * kDay_ns;
   s.stereo = options.cameras != "panorama";
   s.panorama = options.cameras != "stereo";
   if (!options.rig.empty()) s.rig = read_rig(options.rig);

@@ -74,6 +74,8 @@ class LandmarkBuilder {
 
   /// Adds or moves a landmark, e.g. of an earlier journey; position in the map, m.
   void set_landmark(std::uint32_t id, const Eigen::Vector2d& position) { rule_.set_landmark(id, position); }
+  /// Reports that a landmark is of an earlier run.
+  void set_earlier(std::uint32_t id) { rule_.set_earlier(id); }
   /// Reports that a landmark was recognised at the last panorama.
   void recognised() { rule_.recognised(travelled_m_); }
 

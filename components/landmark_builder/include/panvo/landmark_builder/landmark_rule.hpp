@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace panvo::landmark_builder {
 
@@ -13,6 +14,8 @@ struct LandmarkRuleParameters {
   double first_m = 4.0;
   double nearby_m = 15.0;
   double known_m = 12.0;
+  int appearances = 4;
+  double trusted_m = 300.0;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -25,17 +28,24 @@ struct LandmarkRuleParameters {
     field(&P::nearby_m, "nearby_m", "m", "smallest distance of a new landmark from any other", 0.0, 1000.0);
     field(&P::known_m, "known_m", "m", "path before and after a recognised landmark without new landmarks", 0.0,
           1000.0);
+    field(&P::appearances, "appearances", "1",
+          "landmarks at one place, if those of earlier runs are not recognised today; 1: no others", 1, 20);
+    field(&P::trusted_m, "trusted_m", "m", "path after a recognised landmark on which the position tells the place",
+          0.0, 10000.0);
   }
 };
 
 /// Decides which places become landmarks: one per junction, one after a long path without any, and one at the start of
-/// a new map, as journeys often end there. None near a known landmark, by position or by recognition [Lu2015 4.1].
+/// a new map, as journeys often end there. None near a known landmark, by position or by recognition [Lu2015 4.1], unless
+/// the place was described in an earlier run and is not recognised although the position is certain: it looks different.
 class LandmarkRule {
  public:
   explicit LandmarkRule(const LandmarkRuleParameters& parameters) : parameters_(parameters) {}
 
   /// Adds or moves a landmark, of this or of an earlier journey.
   void set_landmark(std::uint32_t id, const Eigen::Vector2d& position);
+  /// Reports that a landmark is of an earlier run.
+  void set_earlier(std::uint32_t id) { earlier_.insert(id); }
   /// Reports that a landmark was built here.
   void taken(double travelled_m) { last_m_ = travelled_m; }
   /// Reports that a landmark was recognised here.
@@ -54,6 +64,7 @@ class LandmarkRule {
  private:
   LandmarkRuleParameters parameters_;
   std::map<std::uint32_t, Eigen::Vector2d> positions_;
+  std::set<std::uint32_t> earlier_;
   double last_m_ = 0.0;
   std::optional<double> recognised_m_;
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 
 #include "panvo/landmarks/description_settings.hpp"
 #include "panvo/landmarks/keypoint_source.hpp"
+#include "panvo/landmarks/landmark_use.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
 #include "panvo/landmarks/store_error.hpp"
 
@@ -63,6 +65,12 @@ class LandmarkStore final : public KeypointSource {
   std::uint32_t add(const PanoramicLandmark& landmark);
   /// Updates landmark poses in one transaction. Unknown ids are ignored.
   void set_poses(std::span<const LandmarkPose> poses);
+  /// Removes landmarks in one transaction. Unknown ids are ignored.
+  void remove(std::span<const std::uint32_t> ids);
+  /// Keeps how landmarks served, in one transaction. Unknown ids are ignored.
+  void set_uses(const std::map<std::uint32_t, LandmarkUse>& uses);
+  /// Of the landmarks of which it is known; stores of earlier versions know of none.
+  std::map<std::uint32_t, LandmarkUse> uses() const;
   /// Appends all landmarks of another store of equal settings in one transaction, bit by bit, with new ids in their
   /// order; returns the first new id.
   std::uint32_t append(const LandmarkStore& other);
@@ -88,6 +96,7 @@ class LandmarkStore final : public KeypointSource {
   void prepare(const DescriptionSettings& settings);
   void read_settings();
   std::uint32_t insert(const PanoramicLandmark& landmark);
+  bool has_uses() const;
 
   std::filesystem::path file_;
   std::unique_ptr<sqlite::Database> database_;
