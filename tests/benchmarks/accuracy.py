@@ -91,11 +91,12 @@ def summary(values, digits):
 
 def revisits(drives, key):
     """Magnitudes of an error just after each corrected revisit."""
-    return [abs(row[key]) for drive in drives for row in drive.journey["revisits"]["rows"] if row["result"] == "corrected"]
+    rows = [row for drive in drives for row in drive.journey["revisits"]["rows"] if row["result"] == "corrected"]
+    return [abs(row[key]) for row in rows if row[key] is not None]
 
 
-COLUMNS = ("drives", "system", "n", "path, m", "horizontal error, m", "% of the way", "heading, deg", "after a revisit, m", "heading after, deg",
-           "corrections, wrong", "NEES (2)", "CPU, % of a core", "memory, MB")
+COLUMNS = ("drives", "system", "n", "path, m", "horizontal error, m", "% of the way", "heading, deg", "after a revisit, m",
+           "beyond the landmark's, m", "heading after, deg", "corrections, wrong", "NEES (2)", "CPU, % of a core", "memory, MB")
 
 
 def row(group, text, trajectory, drives):
@@ -106,7 +107,8 @@ def row(group, text, trajectory, drives):
              summary([path["heading_rms_deg"] for path in own], 2)]
     if trajectory != "enhanced":
         return cells + ["-"] * (len(COLUMNS) - len(cells))
-    return cells + [summary(revisits(drives, "after_m"), 2), summary(revisits(drives, "after_heading_deg"), 2),
+    return cells + [summary(revisits(drives, "after_m"), 2), summary(revisits(drives, "beyond_landmark_m"), 2),
+                    summary(revisits(drives, "after_heading_deg"), 2),
                     ", ".join(str(sum(drive.journey["revisits"][key] for drive in drives)) for key in ("applied", "wrong")),
                     summary([inside(path, "nees", "plane", "mean") for path in paths], 1),
                     summary([100.0 * drive.seconds / drive.journey["paths"]["duration_s"] for drive in drives], 0),
@@ -136,8 +138,9 @@ def measure(programs, groups, work):
 def page(version, rows, missing, where):
     lines = ["# Accuracy of this version", "", f"Written by `panvo bench accuracy`: panvo {version}, {where}.", "",
              "Causal, from the start of the drive, without alignment: mean over the drives ± half of its 95 % interval (worst). Errors are horizontal, RMS",
-             "over a drive. \"After a revisit\" is the error just after each correction at a place that was passed before; a correction is wrong if it adds",
-             "more than a metre. NEES: horizontal position, 2 is expected, smaller means cautious. CPU: of a replay, decoding of images included.", ""]
+             "over a drive. \"After a revisit\" is the error just after each correction at a place that was passed before, and what of it is not the error of",
+             "that place in the map; a correction is wrong if it adds more than a metre. NEES: horizontal position, 2 is expected,",
+             "smaller means cautious. CPU: of a replay, decoding of images included.", ""]
     lines += table(COLUMNS, rows) if rows else ["Nothing was measured."]
     if missing:
         lines += ["", "## Not measured", "", *(f"- {text}" for text in missing)]

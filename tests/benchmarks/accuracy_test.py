@@ -16,7 +16,7 @@ import json, pathlib, sys
 out, recording = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[3])
 error = float((recording / "error").read_text())
 path = lambda error: {"flat_rms_m": error, "flat_percent_of_way": error / 2, "heading_rms_deg": 10 * error}
-rows = [{"result": "corrected", "after_m": error, "after_heading_deg": -2 * error}, {"result": "missed", "after_m": None, "after_heading_deg": None}]
+rows = [{"result": "corrected", "after_m": error, "beyond_landmark_m": error / 10, "after_heading_deg": -2 * error}, {"result": "missed", "after_m": None, "beyond_landmark_m": None, "after_heading_deg": None}]
 out.mkdir(parents=True, exist_ok=True)
 (out / "journey.json").write_text(json.dumps({"run": {
     "paths": {"travelled_m": 200.0, "duration_s": 50.0, "binocular": path(2 * error), "enhanced": path(error), "nees": {"plane": {"mean": 2.0}}},
@@ -55,7 +55,7 @@ class Accuracy(unittest.TestCase):
         # Two drives: the interval is 12.706 times the standard deviation of the mean, 0.1.
         self.assertIn("| short | stereo | 2 | 200 | 0.40 ± 2.54 (0.60) | 0.200 ± 1.271 (0.300) | 4.00 ± 25.41 (6.00) | - |", page)
         self.assertIn("| short | stereo + panorama | 2 | 200 | 0.20 ± 1.27 (0.30) |", page)
-        self.assertIn("| 0.20 ± 1.27 (0.30) | 0.40 ± 2.54 (0.60) | 6, 2 | 2.0 ± 0.0 (2.0) |", page)
+        self.assertIn("| 0.20 ± 1.27 (0.30) | 0.02 ± 0.13 (0.03) | 0.40 ± 2.54 (0.60) | 6, 2 | 2.0 ± 0.0 (2.0) |", page)
 
     def test_replays_each_system_of_the_kind(self):
         self.write_page("panorama", "long", self.make_drive("a", 0.1))
