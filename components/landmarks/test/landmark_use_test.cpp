@@ -70,6 +70,15 @@ TEST(PassCounter, FindsNoCompanyALongWayBack) {
   EXPECT_FALSE(passes[7].in_company);  // 377 m
 }
 
+TEST(LandmarkUse, CountsMissesSinceTheLastRecognition) {
+  LandmarkUse use;
+  add({1, false, true}, use);
+  add({1, false, false}, use);
+  EXPECT_EQ(use, (LandmarkUse{2, 0, 2, 1}));
+  add({1, true, true}, use);
+  EXPECT_EQ(use, (LandmarkUse{3, 1, 0, 0}));
+}
+
 /// A made-up map over many drives: which landmarks are recognised on a drive is given; a new appearance is built where
 /// none of a place is.
 class Map {
