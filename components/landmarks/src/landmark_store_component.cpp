@@ -105,6 +105,9 @@ class LandmarkStoreComponent final : public runtime::Component {
     context_.log().info("{}: {} landmarks loaded", parameters_.file, known_.size());
   }
 
+  /// Places of a stereo camera are recognised at like headings only, so that a pass does not tell that one has changed.
+  bool is_followed() const { return !store_->settings().contains("camera"); }
+
   void forget() {
     std::vector<std::uint32_t> outdated;
     for (const auto& [id, use] : uses_) {
@@ -125,7 +128,7 @@ class LandmarkStoreComponent final : public runtime::Component {
   }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
-    if (has_failed_ || !store_ || message.header().frame_id() != parameters_.map_frame) return;
+    if (has_failed_ || !store_ || !is_followed() || message.header().frame_id() != parameters_.map_frame) return;
     const auto& covariance = message.pose().covariance();
     if (!(std::sqrt(covariance[0] + covariance[7]) < kMaxSigma_m)) return;
     const auto& position = message.pose().pose().position();
@@ -202,6 +205,7 @@ class LandmarkStoreComponent final : public runtime::Component {
 
   /// Whether a landmark is kept beside those of earlier runs; removes the one that it replaces.
   bool make_room_for(const PanoramicLandmark& landmark) {
+    if (!is_followed()) return true;
     std::vector<std::uint32_t> ids;
     std::vector<LandmarkUse> beside;
     for (const auto& [id, use] : earlier_) {

@@ -176,6 +176,18 @@ TEST_F(LandmarkStoreComponent, KeepsAnotherAppearanceWhereAPlaceWasMissedBefore)
   }
 }
 
+TEST_F(LandmarkStoreComponent, KeepsAllPlacesOfAStereoCamera) {
+  auto settings = made_up_settings();
+  settings["camera"] = "stereo";
+  for (std::uint32_t id = 1; id <= 6; ++id) {
+    Session session(file_);
+    session.publish(on_road(id, 50.0 + id, static_cast<int>(id)), settings);
+    drive(session.harness, 200.0, {});
+  }
+  EXPECT_EQ(LandmarkStore(file_).size(), 6U);
+  EXPECT_THAT(LandmarkStore(file_).uses(), IsEmpty());
+}
+
 TEST_F(LandmarkStoreComponent, ForgetsALandmarkThatIsGone) {
   {
     LandmarkStore store(file_, made_up_settings());
