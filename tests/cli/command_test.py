@@ -35,11 +35,12 @@ class Help(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(f"usage: panvo {verb}", done.stdout)
 
-    def test_of_the_fault_bench_comes_without_building_anything(self):
-        done = panvo("bench", "faults", "--help")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("usage: panvo bench faults", done.stdout)
-        self.assertIn("--quick", done.stdout)
+    def test_of_a_bench_comes_without_building_anything(self):
+        for bench in ("accuracy", "faults"):
+            done = panvo("bench", bench, "--help")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(f"usage: panvo bench {bench}", done.stdout)
+            self.assertIn("--quick", done.stdout)
 
     def test_version_is_that_of_the_workspace(self):
         version = re.search(r"project\(panvo VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
@@ -66,6 +67,8 @@ class Mistakes(unittest.TestCase):
         self.assert_fails(2, "unknown option '--sanitise'", "build", "--sanitise")
         self.assert_fails(2, "unknown option '--all'", "devices", "--all")
         self.assert_fails(2, "unknown option '--fast'", "bench", "faults", "--fast")
+        self.assert_fails(2, "unknown option '--fast'", "bench", "accuracy", "--fast")
+        self.assert_fails(2, "--seeds 'one': give numbers", "bench", "accuracy", "--seeds", "one")
 
     def test_an_option_without_its_value_is_named(self):
         self.assert_fails(2, "--dataset needs a value", "demo", "--dataset")
