@@ -24,7 +24,7 @@ struct Parameters {
   bool read_only = false;
   std::string map_frame = "map";
   int appearances = 4;
-  int forget_after = 10;
+  int forget_after = 0;
 
   template <class Field>
   static void describe(Field&& field) {

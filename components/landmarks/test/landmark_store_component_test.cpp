@@ -29,9 +29,11 @@ class LandmarkStoreComponent : public testing::Test {
     const std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>>& published =
         harness.collect(topics::kLandmarks);
 
-    explicit Session(const std::string& file, bool read_only = false) {
+    explicit Session(const std::string& file, bool read_only = false, int forget_after = 0) {
       harness.load("panvo_landmarks", "LandmarkStoreComponent",
-                   {{"file", file}, {"read_only", read_only ? "true" : "false"}});
+                   {{"file", file},
+                    {"read_only", read_only ? "true" : "false"},
+                    {"forget_after", std::to_string(forget_after)}});
     }
     void publish(const PanoramicLandmark& landmark, const DescriptionSettings& settings = made_up_settings()) {
       harness.publish(topics::kLandmarks, to_message(landmark, settings, "map"));
@@ -194,7 +196,8 @@ TEST_F(LandmarkStoreComponent, ForgetsALandmarkThatIsGone) {
     for (const std::uint32_t id : {1U, 2U}) store.add(on_road(id, 50.0 * id, 0));
     store.set_uses({{1, {30, 25, 5, 0}}, {2, {12, 2, 10, 10}}});
   }
-  const Session session(file_);
+  EXPECT_EQ(Session(file_).published.size(), 2U) << "unless asked for, nothing is removed";
+  const Session session(file_, false, 10);
   ASSERT_EQ(session.published.size(), 1U);
   EXPECT_EQ(session.published[0]->id(), 1U);
   EXPECT_TRUE(session.harness.log_contains("1 landmarks removed"));
