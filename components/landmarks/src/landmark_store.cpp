@@ -85,6 +85,16 @@ std::string insert_row(const std::string& table, int columns) {
   return sql + ")";
 }
 
+void write_use(const Database& database, std::int64_t id, const LandmarkUse& use) {
+  Statement row(
+      database,
+      "INSERT OR REPLACE INTO landmark_use(landmark_id, passes, recognitions, missed, missed_in_company, session) "
+      "VALUES(?,?,?,?,?,?)");
+  row.bind(1, id).bind(2, std::int64_t{use.passes}).bind(3, std::int64_t{use.recognitions});
+  row.bind(4, std::int64_t{use.missed}).bind(5, std::int64_t{use.missed_in_company});
+  row.bind(6, std::int64_t{use.session}).run();
+}
+
 std::uint32_t next_id(const Database& database) {
   const auto last = single_number(database, "SELECT coalesce(max(id), 0) FROM landmark");
   if (last >= std::numeric_limits<std::uint32_t>::max()) throw StoreError("the store has no ids left");
@@ -231,13 +241,10 @@ void LandmarkStore::set_uses(const std::map<std::uint32_t, LandmarkUse>& uses) {
     Transaction transaction(*database_);
     make_table_of_uses(*database_);
     Statement known(*database_, "SELECT 1 FROM landmark WHERE id = ?");
-    Statement row(*database_, "INSERT OR REPLACE INTO landmark_use VALUES(?,?,?,?,?)");
     for (const auto& [id, use] : uses) {
       const bool is_known = known.bind(1, std::int64_t{id}).step();
       known.reset();
-      if (!is_known) continue;
-      row.bind(1, std::int64_t{id}).bind(2, std::int64_t{use.passes}).bind(3, std::int64_t{use.recognitions});
-      row.bind(4, std::int64_t{use.missed}).bind(5, std::int64_t{use.missed_in_company}).run();
+      if (is_known) write_use(*database_, id, use);
     }
     transaction.commit();
   });
@@ -248,11 +255,13 @@ std::map<std::uint32_t, LandmarkUse> LandmarkStore::uses() const {
     std::map<std::uint32_t, LandmarkUse> uses;
     if (!has_uses()) return uses;
     Statement rows(*database_, "SELECT * FROM landmark_use");
+    const bool has_sessions = rows.columns() > 5;  // the first version of the table had none
     while (rows.step()) {
       const auto number = [&](int column) {
         return static_cast<std::uint32_t>(std::clamp<std::int64_t>(rows.integer(column), 0, kMostUses));
       };
-      uses[static_cast<std::uint32_t>(rows.integer(0))] = {number(1), number(2), number(3), number(4)};
+      uses[static_cast<std::uint32_t>(rows.integer(0))] = {has_sessions ? number(5) : 0, number(1), number(2),
+                                                           number(3), number(4)};
     }
     return uses;
   });
@@ -274,9 +283,27 @@ std::uint32_t LandmarkStore::append(const LandmarkStore& other) {
         insert.run();
       }
     }
+    append_uses(other, new_ids);
     transaction.commit();
     return first;
   });
+}
+
+void LandmarkStore::append_uses(const LandmarkStore& other, const std::map<std::int64_t, std::int64_t>& new_ids) {
+  make_table_of_uses(*database_);
+  const auto first_session = next_session();
+  auto uses = other.uses();
+  for (const auto& [old_id, new_id] : new_ids) {
+    auto use = uses[static_cast<std::uint32_t>(old_id)];
+    use.session += first_session;
+    write_use(*database_, new_id, use);
+  }
+}
+
+std::uint32_t LandmarkStore::next_session() const {
+  std::uint32_t last = 0;
+  for (const auto& [id, use] : uses()) last = std::max(last, use.session);
+  return last + 1;
 }
 
 std::size_t LandmarkStore::size() const {

@@ -24,7 +24,7 @@ struct Parameters {
   bool read_only = false;
   std::string map_frame = "map";
   int appearances = 4;
-  int forget_after = 0;
+  int forget_after = 10;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -33,10 +33,13 @@ struct Parameters {
     field(&P::read_only, "read_only", "", "publish the stored landmarks, store nothing");
     field(&P::map_frame, "map_frame", "", "frame of the stored poses");
     field(&P::appearances, "appearances", "1",
-          "landmarks at one place: others are kept where the known ones were missed on two drives", 1, 20);
+          "landmarks at one place: others are kept where the known ones were missed on two drives while most others of "
+          "their sessions were missed, too, or on four",
+          1, 20);
     field(&P::forget_after, "forget_after", "1",
-          "drives past a landmark without recognising it, where others of its day were recognised, after which it is "
-          "removed; 0: never",
+          "drives past a landmark without recognising it, where most others of its session were recognised, after "
+          "which it "
+          "is removed; 0: never",
           0, 1000);
   }
 };
@@ -72,7 +75,6 @@ class LandmarkStoreComponent final : public runtime::Component {
   struct Known {
     Eigen::Matrix4d map_from_base;
     Eigen::Matrix<double, 6, 6> covariance;
-    std::int64_t stamp_ns = 0;
   };
 
   static constexpr double kMaxSigma_m = 2.0;  ///< of a pose that tells which landmark is passed
@@ -85,6 +87,7 @@ class LandmarkStoreComponent final : public runtime::Component {
       store_ = std::make_unique<LandmarkStore>(parameters_.file, settings);
       uses_ = store_->uses();
       forget();
+      session_ = store_->next_session();
     }
     const auto tell = [this](const std::string& problem) {
       context_.log().warn("{}: {}: skipped. Remedy: run panvo landmarks info --check; restore a copy of the file",
@@ -97,7 +100,7 @@ class LandmarkStoreComponent final : public runtime::Component {
         tell(error.what());
         continue;
       }
-      remember({landmark.id, landmark.map_from_base, landmark.covariance}, landmark.stamp_ns);
+      remember({landmark.id, landmark.map_from_base, landmark.covariance});
       earlier_[landmark.id] = uses_[landmark.id];
       // The topic is latched, so subscribers may join later.
       output_.publish(to_message(landmark, store_->settings(), parameters_.map_frame));
@@ -117,7 +120,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     store_->remove(outdated);
     for (const auto id : outdated) uses_.erase(id);
     context_.log().info(
-        "{}: {} landmarks removed: on their last {} passes others of their day were recognised, but not they",
+        "{}: {} landmarks removed: on {} drives past them most others of their sessions were recognised, but not they",
         parameters_.file, outdated.size(), parameters_.forget_after);
   }
 
@@ -128,7 +131,7 @@ class LandmarkStoreComponent final : public runtime::Component {
   }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
-    if (has_failed_ || !store_ || !is_followed() || message.header().frame_id() != parameters_.map_frame) return;
+    if (has_failed_ || (store_ && !is_followed()) || message.header().frame_id() != parameters_.map_frame) return;
     const auto& covariance = message.pose().covariance();
     if (!(std::sqrt(covariance[0] + covariance[7]) < kMaxSigma_m)) return;
     const auto& position = message.pose().pose().position();
@@ -200,22 +203,26 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
     if (!make_room_for(landmark)) return;
     store_->add(landmark);
-    remember({landmark.id, landmark.map_from_base, landmark.covariance}, landmark.stamp_ns);
+    if (is_followed()) {
+      uses_[landmark.id].session = session_;
+      store_->set_uses({{landmark.id, uses_[landmark.id]}});
+    }
+    remember({landmark.id, landmark.map_from_base, landmark.covariance});
   }
 
   /// Whether a landmark is kept beside those of earlier runs; removes the one that it replaces.
   bool make_room_for(const PanoramicLandmark& landmark) {
     if (!is_followed()) return true;
     std::vector<std::uint32_t> ids;
-    std::vector<LandmarkUse> beside;
+    std::vector<UseRules::Neighbour> neighbours;
     for (const auto& [id, use] : earlier_) {
       const Eigen::Vector3d between =
           known_.at(id).map_from_base.topRightCorner<3, 1>() - landmark.map_from_base.translation();
       if (between.head<2>().norm() > rules_.same_place_m) continue;
       ids.push_back(id);
-      beside.push_back(use);
+      neighbours.push_back({use, passes_.looks_different(use.session)});
     }
-    const auto admission = rules_.admit(beside);
+    const auto admission = rules_.admit(neighbours);
     if (!admission.is_kept) return false;
     if (admission.instead_of) {
       const auto outdated = ids[*admission.instead_of];
@@ -224,7 +231,7 @@ class LandmarkStoreComponent final : public runtime::Component {
       uses_.erase(outdated);
       known_.erase(outdated);
     }
-    if (!beside.empty()) context_.log().info("landmark {} is kept beside {} at its place", landmark.id, ids.front());
+    if (!ids.empty()) context_.log().info("landmark {} is kept beside {} at its place", landmark.id, ids.front());
     return true;
   }
 
@@ -241,7 +248,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
     if (moved.empty()) return;
     store_->set_poses(moved);
-    for (const auto& pose : moved) remember(pose, known_.at(pose.id).stamp_ns);
+    for (const auto& pose : moved) remember(pose);
   }
 
   static bool is_moved(const Known& known, const LandmarkPose& pose) {
@@ -250,9 +257,9 @@ class LandmarkStoreComponent final : public runtime::Component {
            known.covariance != pose.covariance;
   }
 
-  void remember(const LandmarkPose& pose, std::int64_t stamp_ns) {
-    known_.insert_or_assign(pose.id, Known{pose.map_from_base.matrix(), pose.covariance, stamp_ns});
-    passes_.set_landmark(pose.id, pose.map_from_base.translation().head<2>(), stamp_ns);
+  void remember(const LandmarkPose& pose) {
+    known_.insert_or_assign(pose.id, Known{pose.map_from_base.matrix(), pose.covariance});
+    passes_.set_landmark(pose.id, pose.map_from_base.translation().head<2>(), uses_[pose.id].session);
   }
 
   runtime::Context& context_;
@@ -265,6 +272,7 @@ class LandmarkStoreComponent final : public runtime::Component {
   PassCounter passes_;
   std::map<std::uint32_t, LandmarkUse> uses_;
   std::map<std::uint32_t, LandmarkUse> earlier_;  // of the landmarks of earlier runs, when this one began
+  std::uint32_t session_ = 1;                     ///< this run
   bool has_failed_ = false;
 };
 

@@ -38,7 +38,7 @@ CREATE TABLE thumbnail(landmark_id INTEGER PRIMARY KEY, jpeg BLOB NOT NULL);
 constexpr const char* kUses = R"(
 CREATE TABLE IF NOT EXISTS landmark_use(
   landmark_id INTEGER PRIMARY KEY, passes INTEGER NOT NULL, recognitions INTEGER NOT NULL, missed INTEGER NOT NULL,
-  missed_in_company INTEGER NOT NULL);
+  missed_in_company INTEGER NOT NULL, session INTEGER NOT NULL DEFAULT 0);
 )";
 
 /// "truncated after ... of ... bytes" if the file is shorter than its header states; else empty. Uses SQLite's file
@@ -170,7 +170,11 @@ void make_tables(Database& database) {
                    "; PRAGMA user_version=" + std::to_string(LandmarkStore::kLayout));
 }
 
-void make_table_of_uses(Database& database) { database.execute(kUses); }
+void make_table_of_uses(Database& database) {
+  database.execute(kUses);
+  Statement session(database, "SELECT 1 FROM pragma_table_info('landmark_use') WHERE name = 'session'");
+  if (!session.step()) database.execute("ALTER TABLE landmark_use ADD COLUMN session INTEGER NOT NULL DEFAULT 0");
+}
 
 void check_layout(const fs::path& file, const Database& database) {
   if (has_no_tables(database)) {

@@ -132,9 +132,10 @@ PanoramicLandmark on_road(std::uint32_t id, double x_m, int day) {
 }
 
 /// A drive along the road on which these landmarks are recognised.
-void drive(runtime::ComponentHarness& harness, double to_m, const std::map<std::uint32_t, double>& recognised_at) {
+void drive(runtime::ComponentHarness& harness, double to_m, const std::map<std::uint32_t, double>& recognised_at,
+           double from_m = 0.0) {
   std::set<std::uint32_t> seen;
-  for (double x = 0.0; x <= to_m; x += 1.0) {
+  for (double x = from_m; x <= to_m; x += 1.0) {
     nav_msgs::msg::Odometry odometry;
     odometry.header().frame_id("map");
     odometry.pose().pose().position().x(x);
@@ -160,22 +161,45 @@ TEST_F(LandmarkStoreComponent, CountsWhichLandmarksAreRecognised) {
     session.publish(on_road(2, 100.0, 0));
     drive(session.harness, 200.0, {{1, 50.0}});
   }
-  EXPECT_THAT(LandmarkStore(file_).uses(), testing::ElementsAre(testing::Pair(1U, LandmarkUse{1, 1, 0, 0}),
-                                                                testing::Pair(2U, LandmarkUse{1, 0, 1, 1})));
+  EXPECT_THAT(LandmarkStore(file_).uses(), testing::ElementsAre(testing::Pair(1U, LandmarkUse{1, 1, 1, 0, 0}),
+                                                                testing::Pair(2U, LandmarkUse{1, 1, 0, 1, 0})));
 }
 
-TEST_F(LandmarkStoreComponent, KeepsAnotherAppearanceWhereAPlaceWasMissedBefore) {
+TEST_F(LandmarkStoreComponent, KeepsAnotherAppearanceWhereAPlaceWasMissedOnFourDrives) {
   {
     Session session(file_);
     session.publish(on_road(1, 50.0, 0));
     session.publish(on_road(2, 100.0, 0));
   }
-  for (int day = 1; day <= 2; ++day) {
+  for (int day = 1; day <= 4; ++day) {
     Session session(file_);
     drive(session.harness, 200.0, {{1, 50.0}});
     session.publish(on_road(3, 101.0, day));
-    EXPECT_EQ(LandmarkStore(file_).size(), day == 1 ? 2U : 3U) << "day " << day;
+    EXPECT_EQ(LandmarkStore(file_).size(), day < 4 ? 2U : 3U) << "day " << day;
   }
+  EXPECT_EQ(LandmarkStore(file_).uses().at(3).session, 2U);
+}
+
+TEST_F(LandmarkStoreComponent, KeepsAnotherAppearanceOnTheSecondDriveOnWhichAllLooksDifferent) {
+  {
+    Session session(file_);
+    for (std::uint32_t id = 1; id <= 7; ++id) session.publish(on_road(id, 50.0 * id, 0));
+  }
+  for (int day = 1; day <= 2; ++day) {
+    Session session(file_);
+    drive(session.harness, 349.0, {});
+    session.publish(on_road(8, 349.0, day));
+    EXPECT_EQ(LandmarkStore(file_).size(), day == 1 ? 7U : 8U) << "day " << day;
+    drive(session.harness, 400.0, {});
+  }
+}
+
+TEST_F(LandmarkStoreComponent, CountsNoMissOfALandmarkThatWasJustBuilt) {
+  Session session(file_);
+  drive(session.harness, 50.0, {});
+  session.publish(on_road(1, 50.0, 0));
+  drive(session.harness, 100.0, {}, 51.0);
+  EXPECT_EQ(LandmarkStore(file_).uses().at(1), (LandmarkUse{1, 0, 0, 0, 0}));
 }
 
 TEST_F(LandmarkStoreComponent, KeepsAllPlacesOfAStereoCamera) {
@@ -194,9 +218,9 @@ TEST_F(LandmarkStoreComponent, ForgetsALandmarkThatIsGone) {
   {
     LandmarkStore store(file_, made_up_settings());
     for (const std::uint32_t id : {1U, 2U}) store.add(on_road(id, 50.0 * id, 0));
-    store.set_uses({{1, {30, 25, 5, 0}}, {2, {12, 2, 10, 10}}});
+    store.set_uses({{1, {1, 30, 25, 5, 0}}, {2, {1, 12, 2, 10, 10}}});
   }
-  EXPECT_EQ(Session(file_).published.size(), 2U) << "unless asked for, nothing is removed";
+  EXPECT_EQ(Session(file_).published.size(), 2U) << "0: nothing is removed";
   const Session session(file_, false, 10);
   ASSERT_EQ(session.published.size(), 1U);
   EXPECT_EQ(session.published[0]->id(), 1U);
@@ -217,6 +241,27 @@ TEST_F(LandmarkStoreComponent, CountsInAStoreOfAnEarlierVersion) {
     drive(session.harness, 100.0, {});
   }
   EXPECT_EQ(LandmarkStore(file_).uses().at(1).missed, 1U);
+}
+
+TEST_F(LandmarkStoreComponent, GoesOnCountingWhereSessionsWereNotCountedYet) {
+  {
+    LandmarkStore store(file_, made_up_settings());
+    store.add(on_road(1, 50.0, 0));
+  }
+  sqlite::Database(file_, sqlite::Database::Mode::kReadWrite)
+      .execute(
+          "CREATE TABLE landmark_use(landmark_id INTEGER PRIMARY KEY, passes INTEGER NOT NULL, recognitions INTEGER "
+          "NOT "
+          "NULL, missed INTEGER NOT NULL, missed_in_company INTEGER NOT NULL); INSERT INTO landmark_use "
+          "VALUES(1,3,1,2,1);");
+  EXPECT_EQ(LandmarkStore(file_).uses().at(1), (LandmarkUse{0, 3, 1, 2, 1}));
+  {
+    Session session(file_);
+    session.publish(on_road(2, 100.0, 1));
+    drive(session.harness, 200.0, {{1, 50.0}});
+  }
+  EXPECT_EQ(LandmarkStore(file_).uses().at(1), (LandmarkUse{0, 4, 2, 0, 0}));
+  EXPECT_EQ(LandmarkStore(file_).uses().at(2), (LandmarkUse{1, 1, 0, 1, 0}));
 }
 
 TEST_F(LandmarkStoreComponent, MovesALandmarkThatComesAfterItsPose) {

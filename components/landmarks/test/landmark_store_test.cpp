@@ -315,6 +315,19 @@ TEST_F(Store, TakesAnotherStoresLandmarksBitForBitWithNewIds) {
   EXPECT_THAT(error_of<StoreError>([&] { store.append(third); }), HasSubstr("seed is 1 there, 3 here"));
 }
 
+TEST_F(Store, TakesOverHowAnotherStoresLandmarksServed) {
+  LandmarkStore other(folder_ / "other", made_up_settings());
+  for (const std::uint32_t id : {12u, 15u}) other.add(made_up_landmark(id));
+  other.set_uses({{15, {2, 7, 4, 3, 1}}});
+  write(3);
+  LandmarkStore store(file_, made_up_settings());
+  store.set_uses({{1, {3, 9, 9, 0, 0}}});
+  store.append(other);
+  EXPECT_EQ(store.uses(),
+            (std::map<std::uint32_t, LandmarkUse>{{1, {3, 9, 9, 0, 0}}, {4, {4, 0, 0, 0, 0}}, {5, {6, 7, 4, 3, 1}}}));
+  EXPECT_EQ(store.next_session(), 7u);
+}
+
 TEST_F(Store, TellsWhatTakesItsRoom) {
   write(10, 300);
   const LandmarkStore store(file_);

@@ -71,8 +71,10 @@ class LandmarkStore final : public KeypointSource {
   void set_uses(const std::map<std::uint32_t, LandmarkUse>& uses);
   /// Of the landmarks of which it is known; stores of earlier versions know of none.
   std::map<std::uint32_t, LandmarkUse> uses() const;
+  /// The number of a run that begins now, counted from 1.
+  std::uint32_t next_session() const;
   /// Appends all landmarks of another store of equal settings in one transaction, bit by bit, with new ids in their
-  /// order; returns the first new id.
+  /// order; returns the first new id. How they served comes along, their sessions with new numbers.
   std::uint32_t append(const LandmarkStore& other);
 
   std::size_t size() const;
@@ -97,6 +99,7 @@ class LandmarkStore final : public KeypointSource {
   void read_settings();
   std::uint32_t insert(const PanoramicLandmark& landmark);
   bool has_uses() const;
+  void append_uses(const LandmarkStore& other, const std::map<std::int64_t, std::int64_t>& new_ids);
 
   std::filesystem::path file_;
   std::unique_ptr<sqlite::Database> database_;

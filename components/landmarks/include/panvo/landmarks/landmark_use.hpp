@@ -12,10 +12,11 @@ namespace panvo::landmarks {
 
 /// How a stored landmark served in all runs since it was built.
 struct LandmarkUse {
+  std::uint32_t session = 0;            ///< run in which it was built; 0: before sessions were counted
   std::uint32_t passes = 0;             ///< drives past it
   std::uint32_t recognitions = 0;       ///< of these, those that recognised it
   std::uint32_t missed = 0;             ///< passes since the last recognition
-  std::uint32_t missed_in_company = 0;  ///< of these, those on which others of its day were recognised
+  std::uint32_t missed_in_company = 0;  ///< of these, those on which most others of its session were recognised
 
   bool operator==(const LandmarkUse&) const = default;
 };
@@ -24,7 +25,7 @@ struct LandmarkUse {
 struct LandmarkPass {
   std::uint32_t id = 0;
   bool recognised = false;
-  bool in_company = false;  ///< another landmark of the same day was recognised shortly before
+  bool in_company = false;  ///< most others of its session were recognised before it
 
   bool operator==(const LandmarkPass&) const = default;
 };
@@ -32,40 +33,41 @@ struct LandmarkPass {
 void add(const LandmarkPass& pass, LandmarkUse& use);
 
 /// Counts drives past landmarks, from the vehicle's positions in the map and from its recognitions. A landmark that is
-/// not recognised may be gone, or look different today. Only in the first case are others that were built on the same day
-/// recognised around it: they look the same as when they were built.
+/// not recognised may be gone, or look different today. The others of its session tell: if most of them are recognised,
+/// the surroundings look as they did then; if most are missed, they do not (snow, night).
 class PassCounter {
  public:
-  static constexpr double kPassed_m = 5.0;     ///< path within which a landmark should be recognised
-  static constexpr double kLeft_m = 25.0;      ///< beyond, it is no longer recognised: the pass ends
-  static constexpr double kCompany_m = 300.0;  ///< path for which a recognition tells how the surroundings look
-  static constexpr double kStep_m = 1.0;       ///< path between two checks
-  static constexpr std::int64_t kDay_ns = 12LL * 3600 * 1'000'000'000;  ///< built within it: on the same day
+  static constexpr double kPassed_m = 5.0;        ///< path within which a landmark should be recognised
+  static constexpr double kLeft_m = 25.0;         ///< beyond, it is no longer recognised: the pass ends
+  static constexpr double kStep_m = 1.0;          ///< path between two checks
+  static constexpr std::size_t kRecent = 20;      ///< latest passes of a session that tell how the surroundings look
+  static constexpr std::size_t kEnoughSame = 10;  ///< of these, at least, to say that they look the same
+  static constexpr std::size_t kEnoughOther = 5;  ///< at least, to say that they look different
+  static constexpr double kMost = 0.8;            ///< share recognised when all looks the same
+  static constexpr double kFew = 0.5;             ///< share recognised at most when all looks different
 
-  /// A landmark built at `stamp_ns`, or its new position.
-  void set_landmark(std::uint32_t id, const Eigen::Vector2d& position_m, std::int64_t stamp_ns);
+  /// A landmark of a session, or its new position. The drive on which it is built is no pass.
+  void set_landmark(std::uint32_t id, const Eigen::Vector2d& position_m, std::uint32_t session);
   void recognised(std::uint32_t id);
   /// Passes that have ended at this position of the vehicle.
   std::vector<LandmarkPass> move_to(const Eigen::Vector2d& position_m);
 
+  /// Most landmarks of the session that were passed last were recognised.
+  bool looks_same(std::uint32_t session) const;
+  /// At most half of them were.
+  bool looks_different(std::uint32_t session) const;
+
  private:
   struct Landmark {
     Eigen::Vector2d position = Eigen::Vector2d::Zero();
-    std::int64_t stamp_ns = 0;
+    std::uint32_t session = 0;
     bool is_passed = false, is_recognised = false;
+    bool is_just_built = false;  ///< the vehicle has not left it yet
   };
-  struct Recognition {
-    std::uint32_t id = 0;
-    std::int64_t stamp_ns = 0;  ///< when the landmark was built
-    double travelled_m = 0.0;
-  };
-
-  bool has_company(std::uint32_t id, std::int64_t stamp_ns) const;
 
   std::map<std::uint32_t, Landmark> landmarks_;
-  std::deque<Recognition> recent_;
+  std::map<std::uint32_t, std::deque<bool>> recent_;  ///< of each session: whether the landmarks passed were recognised
   std::optional<Eigen::Vector2d> last_;
-  double travelled_m_ = 0.0;
 };
 
 /// What a place may keep and what it loses, from one run to the next.
@@ -73,15 +75,22 @@ struct UseRules {
   int appearances = 4;  ///< landmarks at one place
   double same_place_m = 15.0;
   int forget_after = 10;  ///< passes missed in company after which a landmark is removed; 0: never
+  int learn_after = 2;    ///< drives that miss a landmark whose session looks different now, before another joins it
+  int learn_after_alone = 4;  ///< the same where the session does not: a miss may be chance, and recur by chance
 
+  /// A known landmark at the place of a new one.
+  struct Neighbour {
+    LandmarkUse use;               ///< before this run, which misses it, too
+    bool looks_different = false;  ///< its session does today
+  };
   struct Admission {
     bool is_kept = false;
-    std::optional<std::size_t> instead_of;  ///< of the known ones, that which is removed for it
+    std::optional<std::size_t> instead_of;  ///< of the neighbours, that which is removed for it
   };
-  /// Whether a landmark built beside these known ones is kept: if there are none, or if each was missed on its last pass in
-  /// an earlier run as well, so that a single miss adds nothing. A place that is full loses the landmark that was missed
-  /// most often since it was recognised, if that is at least `forget_after` times.
-  Admission admit(const std::vector<LandmarkUse>& beside) const;
+  /// Whether a new landmark is kept beside its neighbours: if there are none, or if each was missed often enough in a row.
+  /// A place that is full loses the landmark that was missed most often since it was recognised, if that is at least
+  /// `forget_after` times.
+  Admission admit(const std::vector<Neighbour>& neighbours) const;
   bool forgets(const LandmarkUse& use) const;
 };
 
