@@ -31,14 +31,6 @@ std::vector<std::optional<int>> add_topics(const BagReader& reader, BagWriter& w
   return handles;
 }
 
-bool is_latched(const BagTopic& topic) {
-  const auto& profiles = topic.offered_qos_profiles;
-  return profiles.empty() ? topic.name == "/tf_static"  // early bags store no QoS; this topic is always latched
-                          : std::all_of(profiles.begin(), profiles.end(), [](const QosProfile& profile) {
-                              return profile.durability == QosProfile::Durability::kTransientLocal;
-                            });
-}
-
 }  // namespace
 
 BagMetadata reindex_bag(const std::filesystem::path& bag, std::vector<std::string>& warnings) {

@@ -50,4 +50,13 @@ Descriptor take_folder(const fs::path& bag, bool overwrite) {
   }
 }
 
+std::string dated_bag_name() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[64];
+  std::strftime(text, sizeof text, "rosbag2_%Y_%m_%d-%H_%M_%S", &local);
+  return text;
+}
+
 }  // namespace panvo::recorder

@@ -120,6 +120,14 @@ BagTopic BagTopic::of(std::string name, const interfaces::MessageType& type, con
   return topic;
 }
 
+bool is_latched(const BagTopic& topic) {
+  const auto& profiles = topic.offered_qos_profiles;
+  return profiles.empty() ? topic.name == "/tf_static"  // early bags store no QoS; this topic is always latched
+                          : std::all_of(profiles.begin(), profiles.end(), [](const QosProfile& profile) {
+                              return profile.durability == QosProfile::Durability::kTransientLocal;
+                            });
+}
+
 std::uint64_t dropped_messages(const BagMetadata& metadata, const std::string& topic) {
   const auto found = metadata.custom_data.find(dropped_key(topic));
   std::uint64_t count = 0;

@@ -2,7 +2,6 @@
 #include "panvo/recorder/bag_writer.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "bag_folder.hpp"
 #include "durable_file.hpp"
 #include "file_guard.hpp"
+#include "latched_messages.hpp"
 #include "mcap/mcap_file_writer.hpp"
 #include "sqlite_file_writer.hpp"
 
@@ -21,16 +21,10 @@ namespace fs = std::filesystem;
 /// Longest time for which metadata.yaml may be outdated; readers detect this and use the files.
 constexpr std::chrono::seconds kMetadataPeriod{5};
 
-}  // namespace
+/// Of latched messages repeated in each file; less where the files are small.
+constexpr std::uint64_t kMaxLatchedBytes = 16u << 20;
 
-std::string dated_bag_name() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  char text[64];
-  std::strftime(text, sizeof text, "rosbag2_%Y_%m_%d-%H_%M_%S", &local);
-  return text;
-}
+}  // namespace
 
 BagWriter::BagWriter(fs::path bag, Options options)
     : bag_(fs::absolute(bag).lexically_normal()), options_(std::move(options)) {
@@ -39,10 +33,14 @@ BagWriter::BagWriter(fs::path bag, Options options)
                    to_text(options_.compression));
   }
   folder_lock_ = std::make_unique<Descriptor>(take_folder(bag_, options_.overwrite));
-  metadata_.storage_identifier = to_text(options_.storage);
+  metadata_->storage_identifier = to_text(options_.storage);
+  if (options_.max_files > 0) {
+    const auto half_a_file = options_.max_file_bytes > 0 ? options_.max_file_bytes / 2 : kMaxLatchedBytes;
+    latched_ = std::make_unique<LatchedMessages>(std::min(kMaxLatchedBytes, half_a_file));
+  }
   const std::unique_lock lock(mutex_);
   open_next_file();
-  write_metadata(bag_, metadata_, true);
+  write_metadata(bag_, *metadata_, true);
   metadata_saved_ = Clock::now();
   idle_committer_ = std::jthread([this](std::stop_token stop) { commit_when_idle(stop); });
 }
@@ -61,9 +59,9 @@ int BagWriter::add_topic(const BagTopic& topic, std::string_view definition) {
 int BagWriter::add_topic(const BagTopic& topic, const TypeDefinition& definition) {
   const std::unique_lock lock(mutex_);
   const int handle = static_cast<int>(topics_.size());
-  topics_.push_back({topic, definition, 0});
+  topics_.push_back({topic, definition, is_latched(topic)});
   topics_.back().description.message_count = 0;
-  metadata_.topics.push_back(topics_.back().description);
+  metadata_->topics.push_back(topics_.back().description);
   topics_changed_ = true;
   try {
     begin_batch();
@@ -76,33 +74,52 @@ int BagWriter::add_topic(const BagTopic& topic, const TypeDefinition& definition
 
 void BagWriter::write(int topic, std::int64_t timestamp_ns, std::span<const std::uint8_t> data) {
   const std::unique_lock lock(mutex_);
-  auto& written = topics_.at(static_cast<std::size_t>(topic));
-  try {
-    begin_batch();
-    file_->insert(topic + 1, timestamp_ns, data);
-  } catch (const StorageError& error) {
-    ++batch_messages_;
-    fail(error);
+  const bool is_latched = topics_.at(static_cast<std::size_t>(topic)).is_latched;
+  if (is_over(timestamp_ns)) {
+    commit_locked();
+    start_next_file();
   }
-  batch_first_ns_ = batch_messages_ == 0 ? timestamp_ns : std::min(batch_first_ns_, timestamp_ns);
-  batch_last_ns_ = batch_messages_ == 0 ? timestamp_ns : std::max(batch_last_ns_, timestamp_ns);
-  ++written.waiting;
-  ++batch_messages_;
-  batch_size_ += data.size();
-  if (batch_size_ >= options_.batch_bytes || Clock::now() >= batch_deadline_) {
+  if (std::exchange(latched_due_, false)) {
+    for (const auto& message : latched_->all()) insert(message.topic, timestamp_ns, message.data);
+  }
+  insert(topic, timestamp_ns, data);
+  if (latched_ && is_latched) latched_->add(topic, data);
+  if (batch_.bytes >= options_.batch_bytes || Clock::now() >= batch_deadline_) {
     commit_locked();
   }
 }
 
+void BagWriter::insert(int topic, std::int64_t timestamp_ns, std::span<const std::uint8_t> data) {
+  try {
+    begin_batch();
+    file_->insert(topic + 1, timestamp_ns, data);
+  } catch (const StorageError& error) {
+    ++batch_.messages;
+    fail(error);
+  }
+  batch_.add(static_cast<std::size_t>(topic), timestamp_ns, data.size());
+}
+
 void BagWriter::count_dropped(const std::string& topic, std::uint64_t count) {
   const std::unique_lock lock(mutex_);
-  set_dropped_messages(metadata_, topic, recorder::dropped_messages(metadata_, topic) + count);
-  set_dropped_messages(metadata_, "", recorder::dropped_messages(metadata_) + count);
+  set_dropped_messages(*metadata_, topic, recorder::dropped_messages(*metadata_, topic) + count);
+  set_dropped_messages(*metadata_, "", recorder::dropped_messages(*metadata_) + count);
 }
 
 void BagWriter::commit() {
   const std::unique_lock lock(mutex_);
   commit_locked();
+}
+
+void BagWriter::split() {
+  const std::unique_lock lock(mutex_);
+  commit_locked();
+  start_next_file();
+}
+
+std::vector<BagWriter::Split> BagWriter::take_splits() {
+  const std::unique_lock lock(mutex_);
+  return std::exchange(splits_, {});
 }
 
 void BagWriter::close() {
@@ -128,7 +145,7 @@ void BagWriter::close() {
 
 std::uint64_t BagWriter::committed_messages() const {
   const std::unique_lock lock(mutex_);
-  return metadata_.message_count;
+  return metadata_->message_count;
 }
 
 std::uint64_t BagWriter::lost_messages() const {
@@ -138,7 +155,7 @@ std::uint64_t BagWriter::lost_messages() const {
 
 std::uint64_t BagWriter::dropped_messages() const {
   const std::unique_lock lock(mutex_);
-  return recorder::dropped_messages(metadata_);
+  return recorder::dropped_messages(*metadata_);
 }
 
 std::unique_ptr<BagFileWriter> BagWriter::make_file(const fs::path& file) const {
@@ -146,13 +163,13 @@ std::unique_ptr<BagFileWriter> BagWriter::make_file(const fs::path& file) const 
     return std::make_unique<mcap::McapFileWriter>(
         file, mcap::McapFileWriter::Options{options_.compression, options_.chunk_bytes});
   }
-  return std::make_unique<SqliteFileWriter>(file, metadata_.ros_distro);
+  return std::make_unique<SqliteFileWriter>(file, metadata_->ros_distro);
 }
 
 void BagWriter::open_next_file() {
-  const auto name = bag_.filename().string() + "_" + std::to_string(metadata_.files.size()) +
+  const auto name = bag_.filename().string() + "_" + std::to_string(metadata_.files_begun()) +
                     (options_.storage == Storage::kMcap ? ".mcap" : ".db3");
-  metadata_.files.push_back({.path = name, .start_ns = BagMetadata::kNoStart});
+  metadata_.begin_file(name);
   try {
     file_ = make_file(bag_ / name);
     guard_ = std::make_unique<FileGuard>(bag_ / name);
@@ -161,7 +178,7 @@ void BagWriter::open_next_file() {
       file_->add_topic(static_cast<int>(i) + 1, topics_[i].description, topics_[i].definition);
     }
     // Its version tells readers the notation of this file's QoS profiles.
-    file_->insert_metadata(to_yaml(metadata_, true));
+    file_->insert_metadata(to_yaml(*metadata_, true));
     file_->commit();
     sync_folder(bag_);
   } catch (const StorageError& error) {
@@ -193,38 +210,54 @@ void BagWriter::commit_locked() {
     fail(error);
   }
   batch_open_ = false;
-  if (batch_messages_ > 0) {
-    auto& file = metadata_.files.back();
-    const auto extend = [this](std::int64_t& start_ns, std::int64_t& duration_ns, bool empty) {
-      const auto end_ns = empty ? batch_last_ns_ : std::max(start_ns + duration_ns, batch_last_ns_);
-      start_ns = empty ? batch_first_ns_ : std::min(start_ns, batch_first_ns_);
-      duration_ns = end_ns - start_ns;
-    };
-    extend(file.start_ns, file.duration_ns, file.message_count == 0);
-    extend(metadata_.start_ns, metadata_.duration_ns, metadata_.message_count == 0);
-    file.message_count += batch_messages_;
-    metadata_.message_count += batch_messages_;
-    for (std::size_t i = 0; i < topics_.size(); ++i) {
-      metadata_.topics[i].message_count += std::exchange(topics_[i].waiting, 0);
-    }
-  }
-  batch_messages_ = 0;
-  batch_size_ = 0;
+  metadata_.commit(std::exchange(batch_, {}));
   check_file();
-  const bool full = options_.max_file_bytes > 0 && file_->size_bytes() >= options_.max_file_bytes;
-  if (full && !closed_) {
-    finish_file();
-    open_next_file();
-    save_metadata(true);
+  if (is_full() && !closed_) {
+    start_next_file();
   } else if (topics_changed_ || Clock::now() - metadata_saved_ >= kMetadataPeriod) {
     save_metadata(false);
+  }
+}
+
+bool BagWriter::is_full() const {
+  return options_.max_file_bytes > 0 && file_->size_bytes() >= options_.max_file_bytes;
+}
+
+bool BagWriter::is_over(std::int64_t timestamp_ns) const {
+  const auto& file = metadata_->files.back();
+  if (options_.max_file_time.count() <= 0 || file.message_count + batch_.messages == 0) return false;
+  const auto start_ns = batch_.messages > 0 ? std::min(file.start_ns, batch_.first_ns) : file.start_ns;
+  return timestamp_ns - start_ns >= options_.max_file_time.count();
+}
+
+void BagWriter::start_next_file() {
+  throw_failure();
+  if (closed_) {
+    throw BagError(bag_.string() + ": is closed; nothing can be added to it");
+  }
+  const auto closed = bag_ / metadata_->files.back().path;
+  finish_file();
+  open_next_file();
+  splits_.push_back({closed, bag_ / metadata_->files.back().path});
+  remove_oldest_files();
+  latched_due_ = latched_ != nullptr;
+}
+
+/// Saves the metadata before a file is removed: so it never names a file that is missing.
+void BagWriter::remove_oldest_files() {
+  const auto removed =
+      options_.max_files > 0 ? metadata_.remove_oldest(options_.max_files) : std::vector<std::string>();
+  save_metadata(true);
+  for (const auto& file : removed) {
+    std::error_code ignored;  // a file that stays is found and read by readers
+    fs::remove(bag_ / file, ignored);
   }
 }
 
 void BagWriter::finish_file() {
   try {
     file_->begin();
-    file_->insert_metadata(to_yaml(metadata_, true));
+    file_->insert_metadata(to_yaml(*metadata_, true));
     file_->commit();
     file_->finish();
     file_.reset();
@@ -239,10 +272,10 @@ void BagWriter::check_file() {
   if (!loss) {
     return;
   }
-  const auto file = bag_ / metadata_.files.back().path;
+  const auto file = bag_ / metadata_->files.back().path;
   file_.reset();
   std::string text = file.string() + ": " + *loss + "; the recording has stopped. The " +
-                     std::to_string(metadata_.message_count) + " messages recorded so far ";
+                     std::to_string(metadata_->message_count) + " messages recorded so far ";
   try {
     const auto kept = guard_->keep();
     folder_lost_ = kept != file;
@@ -262,7 +295,7 @@ void BagWriter::save_metadata(bool durable) {
   topics_changed_ = false;
   metadata_saved_ = Clock::now();
   try {
-    write_metadata(bag_, metadata_, durable);
+    write_metadata(bag_, *metadata_, durable);
   } catch (const BagError&) {
     // E.g. a full disk: the previous metadata.yaml stays; readers trust the files over it.
   }
@@ -273,10 +306,10 @@ void BagWriter::fail(const StorageError& error) {
     file_->rollback();
   }
   batch_open_ = false;
-  lost_ += std::exchange(batch_messages_, 0);
-  std::string text = (bag_ / metadata_.files.back().path).string() + ": cannot be written (" + error.what() + ")";
-  if (metadata_.message_count + lost_ > 0) {
-    text += "; the " + std::to_string(metadata_.message_count) + " messages committed before stay readable, " +
+  lost_ += std::exchange(batch_, {}).messages;
+  std::string text = (bag_ / metadata_->files.back().path).string() + ": cannot be written (" + error.what() + ")";
+  if (metadata_->message_count + lost_ > 0) {
+    text += "; the " + std::to_string(metadata_->message_count) + " messages committed before stay readable, " +
             std::to_string(lost_) + " are lost";
   }
   fail(text + (error.is_disk() ? "; free some space or record to another disk" : ""));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
+#include <chrono>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,6 +14,9 @@
 #include "panvo/recorder/topic_filter.hpp"
 #include "panvo/runtime/component.hpp"
 #include "rcl_interfaces/msg/Log.h"
+#include "recorder_parameters.hpp"
+#include "recorder_services.hpp"
+#include "rosbag2_interfaces/msg/WriteSplitEvent.h"
 
 namespace panvo::recorder {
 namespace {
@@ -19,40 +24,9 @@ namespace {
 using runtime::SamplePtr;
 using runtime::TopicDescription;
 
-struct Parameters {
-  std::string output;
-  bool overwrite = false;
-  std::vector<std::string> topics;
-  std::vector<std::string> exclude;
-  bool include_images = true;
-  bool include_hidden = false;
-  int max_file_mb = 0;
-  int queue_mb = 100;
-  int max_topics = 1000;
-  std::string storage = "sqlite3";
-  std::string compression = "none";
-
-  template <class Field>
-  static void describe(Field&& field) {
-    using P = Parameters;
-    field.path(&P::output, "output", "folder of the bag; empty: rosbag2_ with date and time, in the working directory");
-    field(&P::overwrite, "overwrite", "", "replace an existing bag");
-    field(&P::topics, "topics", "", "topics to record: names or regular expressions for whole names; empty: all");
-    field(&P::exclude, "exclude", "", "topics not to record: names or regular expressions for whole names");
-    field(&P::include_images, "include_images", "", "also record sensor_msgs/Image and CompressedImage");
-    field(&P::include_hidden, "include_hidden", "",
-          "also record hidden topics, which have a name part that begins with _");
-    field(&P::max_file_mb, "max_file_mb", "MB", "size at which the next file is started; 0: one file", 0, 1e6);
-    field(&P::storage, "storage", "", "sqlite3 (.db3) or mcap");
-    field(&P::compression, "compression", "", "compression of mcap: none, lz4 or zstd");
-    field(&P::queue_mb, "queue_mb", "MB", "size of the write queue; messages beyond it are dropped and counted", 1,
-          1e5);
-    field(&P::max_topics, "max_topics", "",
-          "maximum number of topics; each needs memory and a DDS reader. Further ones are skipped, counted and named "
-          "in the log",
-          1, 65'535);
-  }
-};
+/// As rosbag2's recorder tells that it has started another file.
+constexpr interfaces::Topic<rosbag2_interfaces::msg::WriteSplitEvent> kWriteSplit{"events/write_split",
+                                                                                  interfaces::qos::kDefault};
 
 bool is_image(const TopicDescription& topic) {
   return topic.type_name == "sensor_msgs/msg/Image" || topic.type_name == "sensor_msgs/msg/CompressedImage";
@@ -70,9 +44,11 @@ auto as_configuration(const std::string& component, Action action) {
   }
 }
 
-std::unique_ptr<BagWriter> make_writer(const Parameters& parameters) {
+std::unique_ptr<BagWriter> make_writer(const RecorderParameters& parameters) {
   const BagWriter::Options options{.overwrite = parameters.overwrite,
-                                   .max_file_bytes = static_cast<std::uint64_t>(parameters.max_file_mb) * 1'000'000,
+                                   .max_file_bytes = static_cast<std::uint64_t>(parameters.max_file_mb * 1e6),
+                                   .max_file_time = std::chrono::nanoseconds(std::llround(parameters.max_file_s * 1e9)),
+                                   .max_files = static_cast<std::size_t>(parameters.max_files),
                                    .storage = storage_from_text(parameters.storage),
                                    .compression = compression_from_text(parameters.compression)};
   return std::make_unique<BagWriter>(parameters.output.empty() ? dated_bag_name() : parameters.output, options);
@@ -84,10 +60,12 @@ class RecorderComponent final : public runtime::Component {
  public:
   explicit RecorderComponent(runtime::Context& context)
       : context_(context),
-        parameters_(context.parameters<Parameters>()),
+        parameters_(context.parameters<RecorderParameters>()),
         filter_(
             as_configuration(context.name(), [this] { return TopicFilter(parameters_.topics, parameters_.exclude); })),
         writer_(as_configuration(context.name(), [this] { return make_writer(parameters_); })),
+        splits_(context.output(kWriteSplit)),
+        is_paused_(parameters_.start_paused),
         writing_(context.stage<Waiting>("write", kMaxWaiting, [this](Waiting message) { write(std::move(message)); })) {
     context.tap([this](const TopicDescription& topic) { return is_wanted(topic); }, kTapDepth,
                 [this](const TopicDescription& topic, const SamplePtr& sample) { take(topic, sample); });
@@ -98,7 +76,14 @@ class RecorderComponent final : public runtime::Component {
                        ": no messages arrived on the selected topics");
       }
     });
-    context.log().info("recording to {}", writer_->path().string());
+    offer_recorder_services(context, {.set_paused = [this](bool paused) { set_paused(paused); },
+                                      .is_paused = [this] { return is_paused_.load(); },
+                                      .split = [this] { request_split(); }});
+    if (parameters_.max_files > 0 && parameters_.max_file_mb <= 0.0 && parameters_.max_file_s <= 0.0) {
+      context.log().warn(
+          "max_files limits nothing without max_file_mb or max_file_s, unless ~/split_bagfile is called");
+    }
+    context.log().info("recording to {}{}", writer_->path().string(), is_paused_ ? ", paused" : "");
   }
 
   ~RecorderComponent() override {
@@ -111,7 +96,7 @@ class RecorderComponent final : public runtime::Component {
 
  private:
   struct Waiting {
-    const TopicDescription* topic = nullptr;
+    const TopicDescription* topic = nullptr;  // null: a request to start the next file
     SamplePtr sample;
     std::uint64_t dropped_before = 0;  // messages of this topic dropped since the previous queued one
   };
@@ -189,7 +174,7 @@ class RecorderComponent final : public runtime::Component {
   }
 
   void take(const TopicDescription& topic, const SamplePtr& sample) {
-    if (is_own_log(topic, sample)) {
+    if (is_paused_ || is_own_log(topic, sample)) {
       return;
     }
     if (is_news_left_out_.exchange(false)) {
@@ -206,6 +191,35 @@ class RecorderComponent final : public runtime::Component {
     writing_.push({&topic, sample, dropped ? dropped.mapped() : 0});
   }
 
+  void set_paused(bool paused) {
+    if (is_paused_.exchange(paused) == paused) {
+      return;
+    }
+    context_.log().info("{}", paused ? "paused" : "recording again");
+  }
+
+  /// In the order of the messages: those received before it are in the file that is closed.
+  void request_split() {
+    ++waiting_messages_;
+    writing_.push({});
+  }
+
+  void split() {
+    --waiting_messages_;
+    writer_->split();
+    tell_splits();
+  }
+
+  void tell_splits() {
+    for (const auto& split : writer_->take_splits()) {
+      rosbag2_interfaces::msg::WriteSplitEvent event;
+      event.closed_file(split.closed.string());
+      event.opened_file(split.opened.string());
+      event.node_name("/" + context_.name());
+      splits_.publish(event);
+    }
+  }
+
   void count_dropped(const std::string& topic) {
     ++dropped_[topic];
     ++all_dropped_;
@@ -216,6 +230,10 @@ class RecorderComponent final : public runtime::Component {
   }
 
   void write(Waiting message) {
+    if (message.topic == nullptr) {
+      split();
+      return;
+    }
     const auto time_ns = message.sample->time_ns();
     if (time_ns == 0) {
       early_.push_back(std::move(message));
@@ -246,6 +264,7 @@ class RecorderComponent final : public runtime::Component {
     writer_->write(place->second, time_ns, bytes);  // a BagError stops this stage only
     waiting_bytes_ -= bytes.size();
     --waiting_messages_;
+    tell_splits();
   }
 
   int add_topic(const TopicDescription& topic) {
@@ -260,9 +279,11 @@ class RecorderComponent final : public runtime::Component {
   }
 
   runtime::Context& context_;
-  const Parameters parameters_;
+  const RecorderParameters parameters_;
   const TopicFilter filter_;
   const std::unique_ptr<BagWriter> writer_;
+  runtime::Output<rosbag2_interfaces::msg::WriteSplitEvent> splits_;  // used by the writing stage
+  std::atomic<bool> is_paused_;
   runtime::Stage<Waiting> writing_;
 
   std::mutex topics_mutex_;  // guards the next two

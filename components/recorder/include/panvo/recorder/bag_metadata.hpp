@@ -25,6 +25,9 @@ struct BagTopic {
   static BagTopic of(std::string name, const interfaces::MessageType& type, const interfaces::Qos& qos);
 };
 
+/// Whether subscribers that join later receive the topic's last messages.
+bool is_latched(const BagTopic& topic);
+
 /// A message type's definition as stored in a bag, so that tools without the type can decode its messages.
 struct TypeDefinition {
   std::string encoding;  ///< "ros2msg" or "ros2idl"; "" or "unknown" if there is no definition

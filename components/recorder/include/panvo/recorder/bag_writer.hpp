@@ -16,6 +16,7 @@
 
 #include "panvo/recorder/bag_error.hpp"
 #include "panvo/recorder/bag_metadata.hpp"
+#include "panvo/recorder/growing_metadata.hpp"
 #include "panvo/recorder/storage.hpp"
 
 namespace panvo::recorder {
@@ -23,6 +24,7 @@ namespace panvo::recorder {
 class BagFileWriter;
 class Descriptor;
 class FileGuard;
+class LatchedMessages;
 class StorageError;
 
 /// Default bag name of `ros2 bag record` in local time: "rosbag2_2026_11_20-23_05_00".
@@ -41,7 +43,10 @@ class BagWriter {
  public:
   struct Options {
     bool overwrite = false;                     ///< replace an existing bag
-    std::uint64_t max_file_bytes = 0;           ///< size at which the next file is started; 0: one file
+    std::uint64_t max_file_bytes = 0;           ///< size at which the next file is started; 0: no limit
+    std::chrono::nanoseconds max_file_time{0};  ///< time between stamps at which the next file is started; 0: no limit
+    std::size_t max_files = 0;  ///< files kept: the oldest are removed, and each begins with the latched
+                                ///< messages so far; 0: all
     std::chrono::milliseconds batch_time{500};  ///< age at which a batch is committed
     std::size_t batch_bytes = 16u << 20;        ///< size at which a batch is committed; bounds the writer's memory
     Storage storage = Storage::kSqlite3;
@@ -78,6 +83,15 @@ class BagWriter {
   /// Commits the current batch. Throws BagError.
   void commit();
 
+  /// A file that was closed, and the next one.
+  struct Split {
+    std::filesystem::path closed, opened;
+  };
+  /// Closes the current file and starts the next one. Throws BagError.
+  void split();
+  /// Splits since the last call, whether asked for or by the limits of the options.
+  std::vector<Split> take_splits();
+
   /// Commits, writes the final metadata and closes the files. Later calls of write() throw. Throws BagError.
   void close();
 
@@ -90,12 +104,17 @@ class BagWriter {
   struct Topic {
     BagTopic description;
     TypeDefinition definition;
-    std::uint64_t waiting = 0;  ///< messages in the current batch
+    bool is_latched = false;
   };
   using Clock = std::chrono::steady_clock;
 
   std::unique_ptr<BagFileWriter> make_file(const std::filesystem::path& file) const;
   void open_next_file();
+  void start_next_file();
+  void remove_oldest_files();
+  void insert(int topic, std::int64_t timestamp_ns, std::span<const std::uint8_t> data);
+  bool is_full() const;
+  bool is_over(std::int64_t timestamp_ns) const;
   void begin_batch();
   void commit_locked();
   void finish_file();
@@ -115,15 +134,16 @@ class BagWriter {
   std::unique_ptr<BagFileWriter> file_;
   std::unique_ptr<FileGuard> guard_;  // of file_
   std::vector<Topic> topics_;
-  BagMetadata metadata_;  // of the committed messages
+  GrowingMetadata metadata_;                  // of the committed messages
+  std::unique_ptr<LatchedMessages> latched_;  // null if no file is ever removed
+  bool latched_due_ = false;                  // they come before the next message
+  std::vector<Split> splits_;
   bool topics_changed_ = false;
   Clock::time_point metadata_saved_;
 
-  std::uint64_t batch_messages_ = 0;
-  std::size_t batch_size_ = 0;
+  Batch batch_;
   bool batch_open_ = false;
   Clock::time_point batch_deadline_;
-  std::int64_t batch_first_ns_ = 0, batch_last_ns_ = 0;
 
   std::uint64_t lost_ = 0;
   std::optional<std::string> failure_;

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// A recorder that is controlled while it records, live and without DDS.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "panvo/interfaces/topics.hpp"
+#include "panvo/runtime/container.hpp"
+#include "panvo/test/temporary_folder.hpp"
+#include "rosbag2_interfaces/msg/WriteSplitEvent.h"
+#include "rosbag2_interfaces/srv/IsPaused.h"
+#include "rosbag2_interfaces/srv/Pause.h"
+#include "rosbag2_interfaces/srv/Resume.h"
+#include "rosbag2_interfaces/srv/SplitBagfile.h"
+#include "test_bag.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+using namespace rosbag2_interfaces::srv;  // NOLINT(google-build-using-namespace)
+using rosbag2_interfaces::msg::WriteSplitEvent;
+
+/// A recorder "/rosbag2_recorder" of odometry that the test publishes.
+class RecorderServices : public testing::Test {
+ protected:
+  void start(const std::map<std::string, std::string>& parameters = {}) {
+    container_.observe([](const runtime::TopicDescription& topic) { return topic.name == "/events/write_split"; },
+                       [this](const runtime::TopicDescription&, const runtime::SamplePtr& sample) {
+                         const std::lock_guard lock(mutex_);
+                         splits_.push_back(*runtime::Sample::as<WriteSplitEvent>(sample));
+                         changed_.notify_all();
+                       });
+    container_.add(description("publisher"), [this](runtime::Context& context) {
+      access_ = context.topic_access();
+      odometry_.emplace(context.output(topics::kOdometryBinocular));
+      return std::make_unique<runtime::Component>();
+    });
+    auto recorder = description("rosbag2_recorder");
+    recorder.package = "panvo_recorder";
+    recorder.plugin = "RecorderComponent";
+    for (const auto& [name, value] : parameters) {
+      recorder.parameters[name] = {.items = {value}, .is_list = false, .where = {"test", 0}};
+    }
+    recorder.parameters["output"] = {.items = {bag_.string()}, .is_list = false, .where = {"test", 0}};
+    recorder.parameters["topics"] = {.items = {"/odometry/binocular"}, .is_list = true, .where = {"test", 0}};
+    container_.load(recorder);
+    container_.start();
+    run_ = std::thread([this] { container_.run(); });
+  }
+
+  void stop() {
+    container_.request_stop();
+    run_.join();
+    access_.reset();
+    odometry_.reset();
+  }
+
+  static runtime::ComponentDescription description(const std::string& name) {
+    runtime::ComponentDescription description;
+    description.name = name;
+    description.name_space = "/";
+    return description;
+  }
+
+  template <class Response, class Request>
+  Response call(const std::string& service, const Request& request) {
+    const std::string_view type = interfaces::message_type<Request>().name;
+    const auto answer =
+        access_->call({"/rosbag2_recorder/" + service, std::string(type.substr(0, type.rfind("_Request")))},
+                      runtime::to_bytes(request), std::chrono::seconds(20));
+    if (!answer) throw std::runtime_error("no answer from " + service);
+    return runtime::from_bytes<Response>(*answer);
+  }
+  bool is_paused() { return call<IsPaused_Response>("is_paused", IsPaused_Request()).paused(); }
+
+  void publish(int number) {
+    nav_msgs::msg::Odometry message;
+    message.header().stamp().sec(number);
+    odometry_->publish(message);
+  }
+
+  std::vector<WriteSplitEvent> splits(std::size_t count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, std::chrono::seconds(30), [&] { return splits_.size() >= count; });
+    return splits_;
+  }
+
+  /// Numbers of the recorded messages, by file.
+  std::vector<std::vector<int>> recorded() {
+    std::vector<std::vector<int>> files;
+    const BagReader bag(bag_);
+    for (const auto& file : bag.metadata().files) {
+      BagReader reader(bag_ / file.path);
+      files.emplace_back();
+      while (const auto* message = reader.next()) {
+        files.back().push_back(runtime::from_bytes<nav_msgs::msg::Odometry>(message->data).header().stamp().sec());
+      }
+    }
+    return files;
+  }
+
+  panvo::test::TemporaryFolder folder_;
+  const std::filesystem::path bag_ = folder_ / "bag";
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<WriteSplitEvent> splits_;
+  runtime::Container container_{
+      runtime::ContainerOptions{.rate = 1, .log = [](runtime::LogLevel, const std::string&, const std::string&) {}}};
+  std::unique_ptr<runtime::TopicAccess> access_;
+  std::optional<runtime::Output<nav_msgs::msg::Odometry>> odometry_;
+  std::thread run_;
+};
+
+TEST_F(RecorderServices, LeaveOutWhatComesWhilePaused) {
+  start();
+  EXPECT_FALSE(is_paused());
+  publish(1);
+  call<Pause_Response>("pause", Pause_Request());
+  EXPECT_TRUE(is_paused());
+  publish(2);
+  call<Resume_Response>("resume", Resume_Request());
+  EXPECT_FALSE(is_paused());
+  publish(3);
+  is_paused();
+  stop();
+  EXPECT_THAT(recorded(), testing::ElementsAre(testing::ElementsAre(1, 3)));
+}
+
+TEST_F(RecorderServices, StartARecordingThatBeganPaused) {
+  start({{"start_paused", "true"}});
+  EXPECT_TRUE(is_paused());
+  publish(1);
+  call<Resume_Response>("resume", Resume_Request());
+  publish(2);
+  is_paused();
+  stop();
+  EXPECT_THAT(recorded(), testing::ElementsAre(testing::ElementsAre(2)));
+}
+
+TEST_F(RecorderServices, StartTheNextFileAndTellIt) {
+  start();
+  publish(1);
+  call<SplitBagfile_Response>("split_bagfile", SplitBagfile_Request());
+  const auto told = splits(1);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].closed_file(), (bag_ / "bag_0.db3").string());
+  EXPECT_EQ(told[0].opened_file(), (bag_ / "bag_1.db3").string());
+  EXPECT_EQ(told[0].node_name(), "/rosbag2_recorder");
+  publish(2);
+  is_paused();
+  stop();
+  EXPECT_THAT(recorded(), testing::ElementsAre(testing::ElementsAre(1), testing::ElementsAre(2)));
+}
+
+}  // namespace
+}  // namespace panvo::recorder
