@@ -19,7 +19,6 @@ permissions; default: /panvo). Existing files are kept, so enclaves can be added
 
   panvo run SYSTEM --secure KEYSTORE [--enclave /ENCLAVE]
 
-and for ROS 2 nodes with ROS_SECURITY_KEYSTORE=KEYSTORE ROS_SECURITY_ENABLE=true ROS_SECURITY_STRATEGY=Enforce and an enclave of their own.
 All messages are encrypted; processes without keys of this keystore can neither read nor write. Copy KEYSTORE/enclaves and
 KEYSTORE/public to other machines. Keep KEYSTORE/private secret: it holds the signing key.
 
@@ -30,6 +29,9 @@ use them for tools and tests.
 
 revoke: processes started from then on reject the keys of the enclave. Create the enclave again to get new keys. Copy
 KEYSTORE/enclaves and KEYSTORE/public to the other machines and restart all processes.
+
+Between panvo's processes only: with Fast DDS 2.9 (Debian 12), secured ROS 2 nodes of Humble and Jazzy (Fast DDS 2.6.11 and 2.14.6) are not
+reached, though they accept the keystore. Protect such a network below DDS, for example by a VPN.
 
 The permissions of an enclave are in its permissions.xml. After editing it, delete its permissions.p7s and run this command again.
 EOT

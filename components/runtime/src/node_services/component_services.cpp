@@ -22,12 +22,34 @@ std::string default_name(const std::string& package) {
   return package.starts_with(kOurs) ? package.substr(kOurs.size()) : package;
 }
 
+/// The name and namespace of the node that is asked for. A rule `__node:=NAME` or `__ns:=/NS` wins, as in rclcpp.
+struct RequestedName {
+  std::string name, name_space;
+};
+
+/// Takes the rules for the node's name out of `rules`.
+RequestedName take_name(const LoadNode_Request& request, std::vector<std::string>& rules) {
+  RequestedName node{request.node_name().empty() ? default_name(request.package_name()) : request.node_name(),
+                     request.node_namespace()};
+  std::erase_if(rules, [&](const std::string& rule) {
+    const auto separator = rule.find(":=");
+    const auto subject = rule.substr(0, separator);
+    const bool is_name = subject == "__node" || subject == "__name";
+    if (separator == std::string::npos || (!is_name && subject != "__ns")) return false;
+    (is_name ? node.name : node.name_space) = rule.substr(separator + 2);
+    return true;
+  });
+  return node;
+}
+
 /// Converts a request to a component description; adds problems to `problems`.
 ComponentDescription requested_component(const LoadNode_Request& request, std::vector<std::string>& problems) {
   ComponentDescription description;
   description.package = request.package_name();
   description.plugin = request.plugin_name();
-  description.name = request.node_name().empty() ? default_name(request.package_name()) : request.node_name();
+  auto rules = request.remap_rules();
+  const auto node = take_name(request, rules);
+  description.name = node.name;
   description.where = {kLoadNode, 0};
   const auto complain = [&](const std::string& what) { problems.push_back(std::string(kLoadNode) + ": " + what); };
   if (const auto wrong = package_name_problem(description.package))
@@ -36,12 +58,12 @@ ComponentDescription requested_component(const LoadNode_Request& request, std::v
     complain("plugin \"" + description.plugin + "\" " + *wrong);
   if (const auto wrong = node_name_problem(description.name))
     complain("node name \"" + description.name + "\" " + *wrong);
-  if (const auto wrong = name_space_problem(request.node_namespace())) {
-    complain("namespace \"" + request.node_namespace() + "\" " + *wrong);
+  if (const auto wrong = name_space_problem(node.name_space)) {
+    complain("namespace \"" + node.name_space + "\" " + *wrong);
   } else {
-    description.name_space = join_name_spaces("/", request.node_namespace());
+    description.name_space = join_name_spaces("/", node.name_space);
   }
-  for (const auto& rule : request.remap_rules()) {
+  for (const auto& rule : rules) {
     const auto separator = rule.find(":=");
     const std::string from = rule.substr(0, separator),
                       to = separator == std::string::npos ? "" : rule.substr(separator + 2);

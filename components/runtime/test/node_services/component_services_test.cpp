@@ -77,6 +77,17 @@ TEST_F(ComponentServices, LoadWithNameNamespaceRemapsAndParameters) {
   EXPECT_EQ(description.parameters.at("scale").items, std::vector<std::string>{"0.5"});
 }
 
+TEST_F(ComponentServices, NameTheNodeByARemapRule) {
+  request.node_name("left");
+  request.remap_rules({"__node:=right", "image:=/camera/image", "__ns:=/robot"});
+  EXPECT_TRUE(load().success());
+  EXPECT_EQ(container.descriptions.at(0).name, "right");
+  EXPECT_EQ(container.descriptions.at(0).name_space, "/robot");
+  EXPECT_EQ(container.descriptions.at(0).remaps.size(), 1U);
+  request.remap_rules({"__node:=2nd"});
+  EXPECT_THAT(load().error_message(), HasSubstr("node name \"2nd\""));
+}
+
 TEST_F(ComponentServices, SayAllThatIsWrongWithARequest) {
   request.node_name("1st");
   request.node_namespace("a b");
