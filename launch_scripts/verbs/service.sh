@@ -6,7 +6,7 @@ source "$PANVO_SCRIPTS/lib/build.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo service list [-t] | call SERVICE [REQUEST]
+usage: panvo service list [-t] | call SERVICE [TYPE] [REQUEST]
 
 REQUEST is YAML, for example: panvo service call /panvo/_container/list_nodes '{}'
 EOT

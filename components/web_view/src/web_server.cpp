@@ -154,6 +154,11 @@ struct WebServer::Handlers {
   }
 };
 
+WebServer::Connection::Connection(mg_connection* connection)
+    : connection_(connection),
+      socket_(mg_get_request_info(connection)->remote_addr, mg_get_request_info(connection)->remote_port,
+              mg_get_request_info(connection)->server_port) {}
+
 bool WebServer::Connection::send_text(std::string_view text) {
   return mg_websocket_write(connection_, MG_WEBSOCKET_OPCODE_TEXT, text.data(), text.size()) > 0;
 }
@@ -163,7 +168,7 @@ bool WebServer::Connection::send_binary(std::span<const std::uint8_t> frame) {
                             frame.size()) > 0;
 }
 
-void WebServer::Connection::close() { mg_close_connection(connection_); }
+void WebServer::Connection::close() { socket_.shut_down(); }
 
 std::string WebServer::Connection::address() const {
   const auto* const request = mg_get_request_info(connection_);

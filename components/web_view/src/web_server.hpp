@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "http.hpp"
+#include "peer_socket.hpp"
 
 struct mg_connection;
 struct mg_context;
@@ -32,7 +33,7 @@ class WebServer {
   /// An open connection. Thread-safe.
   class Connection {
    public:
-    explicit Connection(mg_connection* connection) : connection_(connection) {}
+    explicit Connection(mg_connection* connection);
     /// Sends one message, waiting as long as the client reads. False if it read nothing for kSendTimeout, or is gone.
     bool send_text(std::string_view text);
     bool send_binary(std::span<const std::uint8_t> frame);
@@ -43,6 +44,7 @@ class WebServer {
 
    private:
     mg_connection* const connection_;
+    PeerSocket socket_;
   };
 
   /// What an application does for a connection. Created, called and destroyed by the thread of the connection.

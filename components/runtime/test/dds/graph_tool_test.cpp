@@ -110,6 +110,14 @@ TEST_F(GraphTool, CallsServicesByTypeOfTheirServer) {
   const auto answer = run("service call /robot/echo/get_parameters '{names: [size]}'");
   EXPECT_EQ(answer.status, 0);
   EXPECT_THAT(answer.said, HasSubstr("integer_value: 3\n"));
+  EXPECT_EQ(run("service call /robot/echo/get_parameters rcl_interfaces/srv/GetParameters '{names: [size]}'").said,
+            answer.said);
+  const auto nothing = run("service call /robot/echo/get_parameters rcl_interfaces/srv/GetParameters '{}'");
+  EXPECT_EQ(nothing.status, 0) << nothing.said;
+  for (const char* same : {"rcl_interfaces/srv/GetParameters", "'{}'", ""}) {
+    EXPECT_EQ(run(std::string("service call /robot/echo/get_parameters ") + same).said, nothing.said) << same;
+  }
+  EXPECT_EQ(run("--timeout 1 service call /robot/echo/get_parameters rcl_interfaces/srv/SetParameters").status, 1);
   EXPECT_EQ(run("service call /robot/echo/get_parameters '{name: [size]}'").status, 2);
 }
 

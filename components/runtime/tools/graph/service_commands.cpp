@@ -3,6 +3,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "commands.hpp"
 #include "config/message_from_yaml.hpp"
@@ -40,6 +41,11 @@ const interfaces::MessageType& known_type(const std::string& type_name, const ch
   return *type;
 }
 
+/// Whether a text is "package/srv/Name", and not YAML.
+bool is_type_name(const std::string& text) {
+  return text.find("/srv/") != std::string::npos && text.find_first_of("{}:, \t\n") == std::string::npos;
+}
+
 void call(const SessionOptions& options, const std::string& name, std::string type_name, const std::string& request) {
   Session session(options);
   if (type_name.empty()) type_name = type_of(session, name);
@@ -54,7 +60,7 @@ void add_service_commands(CLI::App& app, const SessionOptions& options) {
   auto* service = app.add_subcommand("service", "services of the domain");
   service->require_subcommand(1);
   struct Arguments {
-    std::string name, type, request = "{}";
+    std::string name, type, request, last;
     bool with_types = false;
   };
   const auto arguments = std::make_shared<Arguments>();
@@ -64,11 +70,15 @@ void add_service_commands(CLI::App& app, const SessionOptions& options) {
 
   auto* call_command = service->add_subcommand("call", "call a service and print its response");
   call_command->add_option("SERVICE", arguments->name, "such as /binocular_odometry/get_parameters")->required();
-  call_command->add_option("REQUEST", arguments->request, "YAML, such as '{names: [tracker.max_features]}'");
+  call_command->add_option("TYPE", arguments->request, "such as rcl_interfaces/srv/GetParameters; may be left out");
+  call_command->add_option("REQUEST", arguments->last, "YAML, such as '{names: [tracker.max_features]}'");
   call_command->add_option("--type", arguments->type,
                            "such as rcl_interfaces/srv/GetParameters (default: the server's)");
-  call_command->callback(
-      [&options, arguments] { call(options, absolute(arguments->name), arguments->type, arguments->request); });
+  call_command->callback([&options, arguments] {
+    auto& [name, type, request, last, with_types] = *arguments;
+    if (!last.empty() || is_type_name(request)) type = std::exchange(request, last);  // as in ros2 service call
+    call(options, absolute(name), type, request.empty() ? "{}" : request);
+  });
 }
 
 }  // namespace panvo::runtime::graph
