@@ -53,7 +53,7 @@ verb_main() {
       --max-bag-size)
         require_value "$@"
         [[ $2 =~ ^[0-9]+$ ]] || fail "--max-bag-size $2: give a number of bytes" 2
-        handed_on+=("max_file_mb:=$(($2 / 1000000)).$(printf '%06d' $(($2 % 1000000)))")
+        handed_on+=("max_file_mb:=$((10#$2 / 1000000)).$(printf '%06d' $((10#$2 % 1000000)))")
         shift
         ;;
       --max-bag-duration)

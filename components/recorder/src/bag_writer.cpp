@@ -59,7 +59,7 @@ int BagWriter::add_topic(const BagTopic& topic, std::string_view definition) {
 int BagWriter::add_topic(const BagTopic& topic, const TypeDefinition& definition) {
   const std::unique_lock lock(mutex_);
   const int handle = static_cast<int>(topics_.size());
-  topics_.push_back({topic, definition, is_latched(topic)});
+  topics_.push_back({topic, definition});
   topics_.back().description.message_count = 0;
   metadata_->topics.push_back(topics_.back().description);
   topics_changed_ = true;
@@ -74,16 +74,12 @@ int BagWriter::add_topic(const BagTopic& topic, const TypeDefinition& definition
 
 void BagWriter::write(int topic, std::int64_t timestamp_ns, std::span<const std::uint8_t> data) {
   const std::unique_lock lock(mutex_);
-  const bool is_latched = topics_.at(static_cast<std::size_t>(topic)).is_latched;
-  if (is_over(timestamp_ns)) {
-    commit_locked();
-    start_next_file();
-  }
-  if (std::exchange(latched_due_, false)) {
+  if (is_over(timestamp_ns)) split_locked();
+  if (latched_ && is_file_empty()) {
     for (const auto& message : latched_->all()) insert(message.topic, timestamp_ns, message.data);
   }
   insert(topic, timestamp_ns, data);
-  if (latched_ && is_latched) latched_->add(topic, data);
+  if (latched_ && is_latched(topics_[static_cast<std::size_t>(topic)].description)) latched_->add(topic, data);
   if (batch_.bytes >= options_.batch_bytes || Clock::now() >= batch_deadline_) {
     commit_locked();
   }
@@ -113,8 +109,12 @@ void BagWriter::commit() {
 
 void BagWriter::split() {
   const std::unique_lock lock(mutex_);
+  split_locked();
+}
+
+void BagWriter::split_locked() {
   commit_locked();
-  start_next_file();
+  if (!is_file_empty()) start_next_file();  // else the commit has filled the file, and started the next one
 }
 
 std::vector<BagWriter::Split> BagWriter::take_splits() {
@@ -223,9 +223,11 @@ bool BagWriter::is_full() const {
   return options_.max_file_bytes > 0 && file_->size_bytes() >= options_.max_file_bytes;
 }
 
+bool BagWriter::is_file_empty() const { return metadata_->files.back().message_count + batch_.messages == 0; }
+
 bool BagWriter::is_over(std::int64_t timestamp_ns) const {
+  if (options_.max_file_time.count() <= 0 || is_file_empty()) return false;
   const auto& file = metadata_->files.back();
-  if (options_.max_file_time.count() <= 0 || file.message_count + batch_.messages == 0) return false;
   const auto start_ns = batch_.messages > 0 ? std::min(file.start_ns, batch_.first_ns) : file.start_ns;
   return timestamp_ns - start_ns >= options_.max_file_time.count();
 }
@@ -240,7 +242,6 @@ void BagWriter::start_next_file() {
   open_next_file();
   splits_.push_back({closed, bag_ / metadata_->files.back().path});
   remove_oldest_files();
-  latched_due_ = latched_ != nullptr;
 }
 
 /// Saves the metadata before a file is removed: so it never names a file that is missing.

@@ -215,9 +215,15 @@ class RecorderComponent final : public runtime::Component {
       rosbag2_interfaces::msg::WriteSplitEvent event;
       event.closed_file(split.closed.string());
       event.opened_file(split.opened.string());
-      event.node_name("/" + context_.name());
+      event.node_name(full_name());
       splits_.publish(event);
     }
+  }
+
+  /// With the namespace.
+  std::string full_name() const {
+    const auto below = context_.resolved_name("~/any");
+    return below.substr(0, below.rfind('/'));
   }
 
   void count_dropped(const std::string& topic) {

@@ -108,6 +108,21 @@ TEST(BagRing, DoesNotFillItselfWithLatchedMessages) {
   EXPECT_LT(bytes, 600'000u);
 }
 
+TEST(BagRing, StartsNoEmptyFileWhereOneIsFullAndOver) {
+  const TemporaryFolder folder;
+  {
+    // One message fills a file, and the next one comes after its time.
+    BagWriter writer(folder / "bag", {.max_file_bytes = 1000,
+                                      .max_file_time = std::chrono::nanoseconds(kStep),
+                                      .batch_bytes = 1'000'000,
+                                      .storage = Storage::kMcap});
+    write_numbered(writer, 10, 2000);
+  }
+  const BagReader reader(folder / "bag");
+  EXPECT_EQ(reader.metadata().files.size(), 10u);
+  for (const auto& file : reader.metadata().files) EXPECT_EQ(file.message_count, 1u) << file.path;
+}
+
 TEST(BagRing, SplitsWhenAskedTo) {
   const TemporaryFolder folder;
   BagWriter writer(folder / "bag");

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "called_node.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/container.hpp"
 #include "panvo/test/temporary_folder.hpp"
@@ -47,11 +48,11 @@ class PlayerServices : public testing::Test {
           played_.push_back(runtime::Sample::as<nav_msgs::msg::Odometry>(sample)->header().stamp().sec());
           changed_.notify_all();
         });
-    container_.add(description("caller"), [this](runtime::Context& context) {
+    container_.add(test::description("caller"), [this](runtime::Context& context) {
       access_ = context.topic_access();
       return std::make_unique<runtime::Component>();
     });
-    auto player = description("rosbag2_player");
+    auto player = test::description("rosbag2_player");
     player.package = "panvo_recorder";
     player.plugin = "BagPlayerComponent";
     const auto set = [&](const std::string& name, const std::string& value) {
@@ -71,21 +72,9 @@ class PlayerServices : public testing::Test {
     access_.reset();
   }
 
-  static runtime::ComponentDescription description(const std::string& name) {
-    runtime::ComponentDescription description;
-    description.name = name;
-    description.name_space = "/";
-    return description;
-  }
-
   template <class Response, class Request>
   Response call(const std::string& service, const Request& request) {
-    const std::string_view type = interfaces::message_type<Request>().name;
-    const auto answer =
-        access_->call({"/rosbag2_player/" + service, std::string(type.substr(0, type.rfind("_Request")))},
-                      runtime::to_bytes(request), std::chrono::seconds(20));
-    if (!answer) throw std::runtime_error("no answer from " + service);
-    return runtime::from_bytes<Response>(*answer);
+    return test::call_service<Response>(*access_, "/rosbag2_player/" + service, request);
   }
   bool is_paused() { return call<IsPaused_Response>("is_paused", IsPaused_Request()).paused(); }
   bool seek(std::int64_t time_ns) {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "called_node.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/container.hpp"
 #include "panvo/test/temporary_folder.hpp"
@@ -33,12 +34,12 @@ class RecorderServices : public testing::Test {
                          splits_.push_back(*runtime::Sample::as<WriteSplitEvent>(sample));
                          changed_.notify_all();
                        });
-    container_.add(description("publisher"), [this](runtime::Context& context) {
+    container_.add(test::description("publisher"), [this](runtime::Context& context) {
       access_ = context.topic_access();
       odometry_.emplace(context.output(topics::kOdometryBinocular));
       return std::make_unique<runtime::Component>();
     });
-    auto recorder = description("rosbag2_recorder");
+    auto recorder = test::description("rosbag2_recorder");
     recorder.package = "panvo_recorder";
     recorder.plugin = "RecorderComponent";
     for (const auto& [name, value] : parameters) {
@@ -58,21 +59,9 @@ class RecorderServices : public testing::Test {
     odometry_.reset();
   }
 
-  static runtime::ComponentDescription description(const std::string& name) {
-    runtime::ComponentDescription description;
-    description.name = name;
-    description.name_space = "/";
-    return description;
-  }
-
   template <class Response, class Request>
   Response call(const std::string& service, const Request& request) {
-    const std::string_view type = interfaces::message_type<Request>().name;
-    const auto answer =
-        access_->call({"/rosbag2_recorder/" + service, std::string(type.substr(0, type.rfind("_Request")))},
-                      runtime::to_bytes(request), std::chrono::seconds(20));
-    if (!answer) throw std::runtime_error("no answer from " + service);
-    return runtime::from_bytes<Response>(*answer);
+    return test::call_service<Response>(*access_, "/rosbag2_recorder/" + service, request);
   }
   bool is_paused() { return call<IsPaused_Response>("is_paused", IsPaused_Request()).paused(); }
 

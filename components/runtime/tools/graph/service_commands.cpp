@@ -3,7 +3,6 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <utility>
 
 #include "commands.hpp"
 #include "config/message_from_yaml.hpp"
@@ -60,7 +59,7 @@ void add_service_commands(CLI::App& app, const SessionOptions& options) {
   auto* service = app.add_subcommand("service", "services of the domain");
   service->require_subcommand(1);
   struct Arguments {
-    std::string name, type, request, last;
+    std::string name, type, first, second;
     bool with_types = false;
   };
   const auto arguments = std::make_shared<Arguments>();
@@ -70,14 +69,15 @@ void add_service_commands(CLI::App& app, const SessionOptions& options) {
 
   auto* call_command = service->add_subcommand("call", "call a service and print its response");
   call_command->add_option("SERVICE", arguments->name, "such as /binocular_odometry/get_parameters")->required();
-  call_command->add_option("TYPE", arguments->request, "such as rcl_interfaces/srv/GetParameters; may be left out");
-  call_command->add_option("REQUEST", arguments->last, "YAML, such as '{names: [tracker.max_features]}'");
+  call_command->add_option("TYPE", arguments->first, "such as rcl_interfaces/srv/GetParameters; may be left out");
+  call_command->add_option("REQUEST", arguments->second, "YAML, such as '{names: [tracker.max_features]}'");
   call_command->add_option("--type", arguments->type,
                            "such as rcl_interfaces/srv/GetParameters (default: the server's)");
   call_command->callback([&options, arguments] {
-    auto& [name, type, request, last, with_types] = *arguments;
-    if (!last.empty() || is_type_name(request)) type = std::exchange(request, last);  // as in ros2 service call
-    call(options, absolute(name), type, request.empty() ? "{}" : request);
+    const auto& [name, type, first, second, with_types] = *arguments;
+    const bool has_type = !second.empty() || is_type_name(first);  // as in ros2 service call
+    const auto& request = has_type ? second : first;
+    call(options, absolute(name), has_type ? first : type, request.empty() ? "{}" : request);
   });
 }
 

@@ -38,7 +38,7 @@ void add(const LandmarkPass& pass, LandmarkUse& use);
 class PassCounter {
  public:
   static constexpr double kPassed_m = 5.0;        ///< path within which a landmark should be recognised
-  static constexpr double kLeft_m = 25.0;         ///< beyond, it is no longer recognised: the pass ends
+  static constexpr double kLeft_m = 25.0;         ///< distance at which the pass ends: no recognition from there
   static constexpr double kStep_m = 1.0;          ///< path between two checks
   static constexpr std::size_t kRecent = 20;      ///< latest passes of a session that tell how the surroundings look
   static constexpr std::size_t kEnoughSame = 10;  ///< of these, at least, to say that they look the same
@@ -46,7 +46,7 @@ class PassCounter {
   static constexpr double kMost = 0.8;            ///< share recognised when all looks the same
   static constexpr double kFew = 0.5;             ///< share recognised at most when all looks different
 
-  /// A landmark of a session, or its new position. The drive on which it is built is no pass.
+  /// Adds a landmark of a session, or moves it. The drive that builds a landmark does not count as a pass.
   void set_landmark(std::uint32_t id, const Eigen::Vector2d& position_m, std::uint32_t session);
   void recognised(std::uint32_t id);
   /// Passes that have ended at this position of the vehicle.

@@ -87,7 +87,7 @@ class BagWriter {
   struct Split {
     std::filesystem::path closed, opened;
   };
-  /// Closes the current file and starts the next one. Throws BagError.
+  /// Closes the current file and starts the next one, unless the current one has no messages. Throws BagError.
   void split();
   /// Splits since the last call, whether asked for or by the limits of the options.
   std::vector<Split> take_splits();
@@ -104,7 +104,6 @@ class BagWriter {
   struct Topic {
     BagTopic description;
     TypeDefinition definition;
-    bool is_latched = false;
   };
   using Clock = std::chrono::steady_clock;
 
@@ -113,7 +112,9 @@ class BagWriter {
   void start_next_file();
   void remove_oldest_files();
   void insert(int topic, std::int64_t timestamp_ns, std::span<const std::uint8_t> data);
+  void split_locked();
   bool is_full() const;
+  bool is_file_empty() const;
   bool is_over(std::int64_t timestamp_ns) const;
   void begin_batch();
   void commit_locked();
@@ -136,7 +137,6 @@ class BagWriter {
   std::vector<Topic> topics_;
   GrowingMetadata metadata_;                  // of the committed messages
   std::unique_ptr<LatchedMessages> latched_;  // null if no file is ever removed
-  bool latched_due_ = false;                  // they come before the next message
   std::vector<Split> splits_;
   bool topics_changed_ = false;
   Clock::time_point metadata_saved_;
