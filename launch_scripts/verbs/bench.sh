@@ -6,11 +6,13 @@ source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/accuracy.sh"
 source "$PANVO_SCRIPTS/lib/endurance.sh"
 source "$PANVO_SCRIPTS/lib/faults.sh"
+source "$PANVO_SCRIPTS/lib/places_bench.sh"
 
 verb_usage() {
   cat <<'EOT'
 usage: panvo bench [NAME...] [-- argument...]
        panvo bench accuracy [option...]         errors over simulated drives, with intervals (panvo bench accuracy --help)
+       panvo bench places [option...]           recognition on other days (panvo bench places --help)
        panvo bench faults [option...]           fault injection into the whole system (panvo bench faults --help)
        panvo bench endurance [option...]        hours of driving, checks for leaks (panvo bench endurance --help)
        panvo bench report [--quick] [--out FILE]  measures accuracy on recordings and all times; writes them as one Markdown page
@@ -24,7 +26,7 @@ EOT
 verb_main() {
   require_checkout
   case ${1:-} in
-    accuracy | endurance | faults | report)
+    accuracy | endurance | faults | places | report)
       "bench_$1" "${@:2}"
       return
       ;;

@@ -36,7 +36,7 @@ class Help(unittest.TestCase):
                 self.assertIn(f"usage: panvo {verb}", done.stdout)
 
     def test_of_a_bench_comes_without_building_anything(self):
-        for bench in ("accuracy", "faults"):
+        for bench in ("accuracy", "faults", "places"):
             done = panvo("bench", bench, "--help")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn(f"usage: panvo bench {bench}", done.stdout)
@@ -69,6 +69,7 @@ class Mistakes(unittest.TestCase):
         self.assert_fails(2, "unknown option '--fast'", "bench", "faults", "--fast")
         self.assert_fails(2, "unknown option '--fast'", "bench", "accuracy", "--fast")
         self.assert_fails(2, "--seeds 'one': give numbers", "bench", "accuracy", "--seeds", "one")
+        self.assert_fails(2, "--only 'noon': choose from hour, rain", "bench", "places", "--only", "noon")
 
     def test_an_option_without_its_value_is_named(self):
         self.assert_fails(2, "--dataset needs a value", "demo", "--dataset")

@@ -45,6 +45,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   double position_sigma_m = -1.0;
   bool only_table = false;
+  bool only_journey = false;
   int curves = 3;
   double same_place_m = 15.0;
   std::string poses;
@@ -69,7 +70,11 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "plain folder: poses, as for panvo places build (default: poses.csv or poses.txt in the folder)");
   app.add_option("--curves", arguments.curves, "maximum number of plots of distances along a pass (Fig. 7)")
       ->capture_default_str();
-  app.add_flag("--only-table", arguments.only_table, "only Table 1 and its plots, without matching the whole journey");
+  auto* table =
+      app.add_flag("--only-table", arguments.only_table, "only Table 1 and its plots, without matching the whole journey");
+  app.add_flag("--only-journey", arguments.only_journey,
+               "only match the whole journey, without Table 1 and plots; places of an earlier recording need not occur")
+      ->excludes(table);
 }
 
 std::vector<std::unique_ptr<PlaceMethod>> all_methods(std::uint64_t seed) {
@@ -149,10 +154,11 @@ int run_folder(const Arguments& arguments) {
 }
 
 nlohmann::json json_of(const std::vector<PlaceScore>& scores, const std::optional<JourneyScore>& journey,
-                       const PlaceTask& task) {
+                       const PlaceTask& task, std::size_t panoramas) {
   nlohmann::json json;
   json["places"] = task.places.size();
   json["revisits"] = task.revisits.size();
+  json["panoramas"] = panoramas;
   for (const auto& score : scores) {
     json["methods"].push_back({{"method", score.method},
                                {"v_sc", score.separation},
@@ -192,18 +198,20 @@ int run(const Arguments& arguments) {
   }
   const auto& first = earlier ? *earlier : recording;
   const auto task = place_task(first, earlier ? &recording : nullptr);
-  if (task.revisits.empty()) {
+  if (task.revisits.empty() && !(earlier && arguments.only_journey)) {
     throw InputError(recording.folder / "sequence.yaml", "lists no revisits",
                      "use a recording with revisits, or name an earlier one of the same area with --library-from");
   }
   std::cout << fmt::format("{} places, {} revisits, {} panoramas\n\n", task.places.size(), task.revisits.size(),
                            recording.panoramas.size());
 
-  const auto methods = all_methods(arguments.seed);
+  std::vector<std::unique_ptr<PlaceMethod>> methods;
   std::vector<PlaceScore> scores;
-  scores.reserve(methods.size());
-  for (const auto& method : methods) scores.push_back(score_places(*method, task, first, recording));
-  std::cout << place_table(scores) << std::flush;
+  if (!arguments.only_journey) {
+    methods = all_methods(arguments.seed);
+    for (const auto& method : methods) scores.push_back(score_places(*method, task, first, recording));
+    std::cout << place_table(scores) << std::flush;
+  }
 
   std::optional<JourneyScore> journey;
   if (!arguments.only_table) {
@@ -221,7 +229,8 @@ int run(const Arguments& arguments) {
 
   const fs::path out = arguments.out;
   fs::create_directories(out);
-  write_output(out / "places.json", json_of(scores, journey, task).dump(2) + '\n');
+  write_output(out / "places.json", json_of(scores, journey, task, recording.panoramas.size()).dump(2) + '\n');
+  if (arguments.only_journey) return kSuccess;
   draw_separation(scores, out);
   std::vector<const PlaceMethod*> compared;
   for (const auto& method : methods) compared.push_back(method.get());

@@ -58,8 +58,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
   explicit LandmarkBuilderComponent(runtime::Context& context)
       : context_(context),
         parameters_(context.parameters<ComponentParameters>()),
-        settings_(landmarks::description_settings(parameters_.description,
-                                                  static_cast<std::uint64_t>(parameters_.description_seed))),
+        settings_(landmarks::landmark_settings(parameters_.description, parameters_.keypoints,
+                                               static_cast<std::uint64_t>(parameters_.description_seed))),
         timer_(context.times()),
         landmarks_(context.output(topics::kLandmarks)),
         transforms_(context) {

@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "panvo/landmarks/panorama_describer.hpp"
 #include "panvo/landmarks/sift.hpp"
 #include "panvo/vision/equirectangular.hpp"
 #include "turn.hpp"
@@ -121,6 +120,14 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
     keypoint.descriptor = feature.descriptor;
   }
   return keypoints;
+}
+
+DescriptionSettings landmark_settings(const DescriptionParameters& description, const KeypointParameters& keypoints,
+                                      std::uint64_t seed) {
+  auto settings = description_settings(description, seed);
+  // Stores of versions without this parameter have turned descriptors and lack the key.
+  if (keypoints.upright) settings["upright_keypoints"] = settings_text(true);
+  return settings;
 }
 
 std::vector<KeypointMatch> match_keypoints(std::span<const Keypoint> query, std::span<const Keypoint> landmark,

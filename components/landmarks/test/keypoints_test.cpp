@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/landmarks/keypoints.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <opencv2/core.hpp>
 
 #include "painted_panorama.hpp"
 
@@ -62,6 +64,28 @@ TEST(Keypoints, StayOutOfTheMaskAndOffItsEdge) {
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), is_low));
   EXPECT_FALSE(kept.empty());
   EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), is_low));
+}
+
+TEST(Keypoints, AreDescribedRelativeToTheVerticalUnlessTheyTurnWithTheImage) {
+  cv::Mat upside_down;
+  cv::flip(paint_panorama(1), upside_down, -1);
+  const auto matches = [&](const KeypointParameters& parameters) {
+    return match_keypoints(detect_keypoints(upside_down, parameters), detect_keypoints(paint_panorama(1), parameters))
+        .size();
+  };
+  KeypointParameters turning;
+  turning.upright = false;
+  EXPECT_GT(matches(turning), 50U);
+  EXPECT_LT(matches({}), matches(turning) / 4);
+}
+
+TEST(LandmarkSettings, TellDescriptorsThatTurnWithTheImage) {
+  KeypointParameters turning;
+  turning.upright = false;
+  EXPECT_EQ(landmark_settings({}, turning, 7), description_settings(DescriptionParameters{}, 7))
+      << "stores of versions without upright descriptors";
+  EXPECT_THAT(differences(landmark_settings({}, turning, 7), landmark_settings({}, {}, 7)),
+              testing::ElementsAre("upright_keypoints is not set there, true here"));
 }
 
 }  // namespace

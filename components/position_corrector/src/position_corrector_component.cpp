@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
 
 #include <cmath>
 #include <map>
@@ -87,8 +86,8 @@ class PositionCorrectorComponent final : public runtime::Component {
         parameters_(context.parameters<ComponentParameters>()),
         timer_(context.times()),
         describer_(parameters_.description, static_cast<std::uint64_t>(parameters_.description_seed)),
-        settings_(landmarks::description_settings(parameters_.description,
-                                                  static_cast<std::uint64_t>(parameters_.description_seed))),
+        settings_(landmarks::landmark_settings(parameters_.description, parameters_.keypoints,
+                                               static_cast<std::uint64_t>(parameters_.description_seed))),
         keypoints_(std::make_shared<SpilledKeypoints>(parameters_.spill_folder)),
         library_(keypoints_, describer_.basis().limits()),
         matcher_(parameters_.matching, parameters_.keypoints, describer_, &timer_),
@@ -104,10 +103,7 @@ class PositionCorrectorComponent final : public runtime::Component {
  private:
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     const auto read = landmarks::to_landmark(message, settings_);
-    if (!read) {
-      return context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {}; skipped",
-                                           read.reason());
-    }
+    if (!read) return context_.log().warn_throttled(read.reason(), "a landmark {}; skipped", read.reason());
     // a landmark that is received again has an updated pose
     if (library_.set_pose(read->id, read->map_from_base, read->covariance)) return;
     auto landmark = *read;

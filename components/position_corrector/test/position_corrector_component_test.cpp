@@ -32,7 +32,7 @@ class PositionCorrectorComponent : public testing::Test {
     harness.publish(topics::kLandmarks, to_message(landmark, settings, "map"));
   }
   void publish_landmark(std::uint32_t id, unsigned seed) {
-    publish_landmark(id, seed, landmarks::description_settings(landmarks::DescriptionParameters{}, 1));
+    publish_landmark(id, seed, landmarks::landmark_settings({}, {}, 1));
   }
 
   void publish_panorama(const cv::Mat& panorama) {
@@ -138,7 +138,7 @@ TEST_F(PositionCorrectorComponent, SearchesEverythingWithoutOdometryAndSaysSo) {
 TEST_F(PositionCorrectorComponent, LeavesOutALandmarkThatWasDescribedOtherwise) {
   auto parameters = landmarks::DescriptionParameters{};
   parameters.top_deg = 45.0;
-  publish_landmark(1, 1, landmarks::description_settings(parameters, 1));
+  publish_landmark(1, 1, landmarks::landmark_settings(parameters, {}, 1));
   publish_panorama(place(1));
   EXPECT_TRUE(harness.log_contains("top_deg"));
   ASSERT_EQ(matches.size(), 1U);
@@ -147,7 +147,7 @@ TEST_F(PositionCorrectorComponent, LeavesOutALandmarkThatWasDescribedOtherwise) 
 
 /// Unchecked, each of them would crash the process or the component.
 TEST_F(PositionCorrectorComponent, LeavesOutLandmarksThatNoMatrixHereCouldDescribe) {
-  const auto settings = landmarks::description_settings(landmarks::DescriptionParameters{}, 1);
+  const auto settings = landmarks::landmark_settings({}, {}, 1);
   auto landmark = landmark_of(place(2), describer, Eigen::Vector3d(200.0, 0.0, 0.0));
   landmark.id = 2;
   for (const std::uint16_t row : {800, 65535}) {
@@ -262,7 +262,7 @@ TEST_F(PositionCorrectorComponent, TellsThatGeometryRejectedALandmark) {
         landmark.keypoints[i].point_in_panorama;
   }
   harness.publish(topics::kLandmarks,
-                  to_message(landmark, landmarks::description_settings(landmarks::DescriptionParameters{}, 1), "map"));
+                  to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map"));
   cv::Mat disturbed = place(2);
   publish_panorama(disturbed);
   ASSERT_EQ(corrections.size(), 1U);
@@ -333,7 +333,7 @@ TEST_F(PositionCorrectorComponent, KeepsKeypointsInMemoryWhereThereIsNoFolderFor
   auto landmark = landmark_of(place(2), describer, Eigen::Vector3d::Zero());
   landmark.id = 2;
   other.publish(topics::kLandmarks,
-                to_message(landmark, landmarks::description_settings(landmarks::DescriptionParameters{}, 1), "map"));
+                to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map"));
   EXPECT_TRUE(other.log_contains("keypoints of landmarks stay in memory"));
   auto message = conversions::make_image(kPeriod_ns, "panorama", "mono8", kColumns, kRows);
   place(2).copyTo(conversions::pixels(*message));

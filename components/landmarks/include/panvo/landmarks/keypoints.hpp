@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "panvo/landmarks/description_settings.hpp"
+#include "panvo/landmarks/panorama_describer.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
 
 namespace panvo::landmarks {
@@ -16,7 +18,7 @@ struct KeypointParameters {
   double top_deg = 35.0;       ///< search band, above the horizon
   double bottom_deg = 25.0;    ///< below the horizon
   double min_contrast = 0.02;  ///< of SIFT; OpenCV's 0.04 finds too few under overcast sky
-  bool upright = false;  ///< descriptors keep the image's vertical: more distinctive, for tilts up to about 15 degrees
+  bool upright = true;         ///< descriptors keep the image's vertical: more distinctive, for tilts up to 15 degrees
 
   template <class Field>
   static void describe(Field&& field) {
@@ -37,6 +39,10 @@ struct KeypointParameters {
 /// body, parts that the camera does not see); empty: none.
 std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointParameters& parameters,
                                        const cv::Mat& mask = {});
+
+/// Everything that must agree for two landmarks to be comparable: description, seed, kind of keypoints.
+DescriptionSettings landmark_settings(const DescriptionParameters& description, const KeypointParameters& keypoints,
+                                      std::uint64_t seed);
 
 /// A pair of matched keypoints: indices into the two lists.
 struct KeypointMatch {
