@@ -70,8 +70,8 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "plain folder: poses, as for panvo places build (default: poses.csv or poses.txt in the folder)");
   app.add_option("--curves", arguments.curves, "maximum number of plots of distances along a pass (Fig. 7)")
       ->capture_default_str();
-  auto* table =
-      app.add_flag("--only-table", arguments.only_table, "only Table 1 and its plots, without matching the whole journey");
+  auto* table = app.add_flag("--only-table", arguments.only_table,
+                             "only Table 1 and its plots, without matching the whole journey");
   app.add_flag("--only-journey", arguments.only_journey,
                "only match the whole journey, without Table 1 and plots; places of an earlier recording need not occur")
       ->excludes(table);

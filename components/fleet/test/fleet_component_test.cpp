@@ -68,8 +68,7 @@ class Drives final : public runtime::Component, public runtime::Source {
       const double t_s = begin_s + place;
       auto landmark = road.landmark(place, static_cast<std::uint32_t>(place) + 1, map_from_world, describer);
       landmark.stamp_ns = stamp_ns(t_s + clock_s);
-      const auto landmark_message = landmarks::to_message(
-          landmark, landmarks::landmark_settings({}, {}, 1), "map");
+      const auto landmark_message = landmarks::to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map");
       auto image = conversions::make_image(landmark.stamp_ns, "panorama", "mono8", 1080, 540);
       road.panorama(place).copyTo(conversions::pixels(*image));
       nav_msgs::msg::Odometry pose;

@@ -261,8 +261,7 @@ TEST_F(PositionCorrectorComponent, TellsThatGeometryRejectedALandmark) {
         Eigen::AngleAxisf(0.3F * static_cast<float>(i % 7), Eigen::Vector3f::UnitY()) *
         landmark.keypoints[i].point_in_panorama;
   }
-  harness.publish(topics::kLandmarks,
-                  to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map"));
+  harness.publish(topics::kLandmarks, to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map"));
   cv::Mat disturbed = place(2);
   publish_panorama(disturbed);
   ASSERT_EQ(corrections.size(), 1U);
@@ -332,8 +331,7 @@ TEST_F(PositionCorrectorComponent, KeepsKeypointsInMemoryWhereThereIsNoFolderFor
   other.load("panvo_position_corrector", "PositionCorrectorComponent", {{"spill_folder", "/no/such/folder"}});
   auto landmark = landmark_of(place(2), describer, Eigen::Vector3d::Zero());
   landmark.id = 2;
-  other.publish(topics::kLandmarks,
-                to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map"));
+  other.publish(topics::kLandmarks, to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map"));
   EXPECT_TRUE(other.log_contains("keypoints of landmarks stay in memory"));
   auto message = conversions::make_image(kPeriod_ns, "panorama", "mono8", kColumns, kRows);
   place(2).copyTo(conversions::pixels(*message));
