@@ -16,7 +16,7 @@ position and heading, and of wrong matches, with 95 % intervals. Drives are rend
   --seeds LIST     seeds of the campuses (default: 601,602,603). With two or more, each library is also searched on the other campuses, where
                    every match is wrong
   --route ROUTE    route (default: dataset_ii, 1.4 km); see panvo simulate --help
-  --only NAMES     of the conditions: hour, rain, bare, snow, rows (default: all)
+  --only NAMES     of the conditions: hour, night, rain, bare, snow, rows (default: all)
   --out FILE       the page (default: runs/places.md)
 EOT
 }
@@ -26,6 +26,7 @@ place_condition() {
   case $1 in
     noon) printf '%s\n' --hour 12 ;;
     hour) printf '%s\n' --hour 17 --day 1 ;;
+    night) printf '%s\n' --night --day 200 ;;
     rain) printf '%s\n' --overcast --effects rain,smear,movers --day 2 ;;
     bare) printf '%s\n' --season bare --day 120 ;;
     snow) printf '%s\n' --season snow --day 150 ;;
@@ -44,7 +45,7 @@ place_drive() {
 }
 
 bench_places() {
-  local route=dataset_ii list=601,602,603 only=hour,rain,bare,snow,rows out=$PANVO_HOME/runs/places.md seed other name library query
+  local route=dataset_ii list=601,602,603 only=hour,night,rain,bare,snow,rows out=$PANVO_HOME/runs/places.md seed other name library query
   local -a seeds names pairs=()
   while (($#)); do
     case $1 in
@@ -69,7 +70,7 @@ bench_places() {
   IFS=, read -r -a seeds <<<"$list"
   IFS=, read -r -a names <<<"$only"
   for name in "${names[@]}"; do
-    [[ $name == @(hour|rain|bare|snow|rows) ]] || fail "--only '$name': choose from hour, rain, bare, snow, rows" 2
+    [[ $name == @(hour|night|rain|bare|snow|rows) ]] || fail "--only '$name': choose from hour, night, rain, bare, snow, rows" 2
   done
   ensure_built panvo_programs
   use_plugins

@@ -82,7 +82,7 @@ def page(version, rows, missing, where):
     lines = ["# Recognition of places by this version", "", f"Written by `panvo bench places`: panvo {version}, {where}.", "",
              "The library is a drive at noon in summer. Every panorama of another drive is compared with the whole library, without a prior position.",
              "Intervals are of 95 %. Successive panoramas are not independent of each other, so that the true bound of the wrong rate is higher.", "",
-             "hour: in the evening; rain: overcast, drops and dirt on the lens, traffic; bare: trees without leaves; rows: rows of equal buildings, also",
+             "hour: in the evening; night: street lamps; rain: overcast, drops and dirt on the lens, traffic; bare: trees without leaves; rows: rows of equal buildings, also",
              "in the library; elsewhere: the library of another campus, where every match is wrong.", ""]
     lines += table(COLUMNS, rows) if rows else ["Nothing was measured."]
     if missing:

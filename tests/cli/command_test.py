@@ -69,7 +69,7 @@ class Mistakes(unittest.TestCase):
         self.assert_fails(2, "unknown option '--fast'", "bench", "faults", "--fast")
         self.assert_fails(2, "unknown option '--fast'", "bench", "accuracy", "--fast")
         self.assert_fails(2, "--seeds 'one': give numbers", "bench", "accuracy", "--seeds", "one")
-        self.assert_fails(2, "--only 'noon': choose from hour, rain", "bench", "places", "--only", "noon")
+        self.assert_fails(2, "--only 'noon': choose from hour, night, rain", "bench", "places", "--only", "noon")
 
     def test_an_option_without_its_value_is_named(self):
         self.assert_fails(2, "--dataset needs a value", "demo", "--dataset")

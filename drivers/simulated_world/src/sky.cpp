@@ -124,6 +124,18 @@ Light overcast_light_at(double hour) {
   return light;
 }
 
+Light night_light(bool overcast, std::uint32_t evening) {
+  Light light;
+  light.to_sun = Eigen::Vector3f::UnitZ();
+  light.sun.setZero();
+  light.sky = Eigen::Vector3f(0.0016f, 0.0015f, 0.0017f) * (overcast ? 2.0f : 1.0f);
+  light.ground = 0.15f * light.sky;
+  light.overcast = overcast;
+  light.lamps = true;
+  light.evening = evening;
+  return light;
+}
+
 namespace {
 
 /// Radiance of an overcast sky at height `up`: three times as bright overhead as at the horizon, after Moon and Spencer

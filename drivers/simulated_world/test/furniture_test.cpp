@@ -50,6 +50,22 @@ TEST(Furniture, KeepsOffTheRoadButForCarsParkedAtWideRoadsFarFromJunctions) {
   }
 }
 
+TEST(Furniture, EveryLampPostCarriesALight) {
+  const Town town(4);
+  const auto is_post = [&](const Placement& placement) {
+    return placement.model == town.models.lamp || placement.model == town.models.lantern;
+  };
+  const auto& standing = town.scene.standing;
+  ASSERT_GT(town.scene.lamps.size(), 3u);
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(town.scene.lamps.size()),
+            std::count_if(standing.begin(), standing.end(), is_post));
+  for (const auto& lamp : town.scene.lamps) {
+    const Eigen::Vector2d below = lamp.position.head<2>().cast<double>();
+    EXPECT_NEAR(lamp.position.z() - static_cast<float>(town.site.ground_m(below)), lamp.hangs ? 6.8f : 3.8f, 0.3f);
+    EXPECT_TRUE(!lamp.hangs || town.site.distance_from_kerb(below) < 0.0) << "its arm reaches over the road";
+  }
+}
+
 TEST(Furniture, StandsOnTheGroundAndOutsideOfBuildings) {
   const Town town(4);
   for (const auto& placement : town.scene.standing) {

@@ -70,6 +70,16 @@ TEST(LightAt, IsWithoutSunAndDimmerOnAnOvercastDay) {
   EXPECT_GT(covered.sky.mean(), 0.3f * open);
 }
 
+TEST(NightLight, IsMuchDimmerThanTheDayAndBrighterUnderClouds) {
+  const Light night = night_light(false, 1);
+  EXPECT_EQ(night.sun.norm(), 0.0f);
+  EXPECT_LT(night.sky.mean(), 0.02f * light_at(12.0, 0.0).sky.mean());
+  EXPECT_NEAR(night_light(true, 1).sky.mean(), 2.0f * night.sky.mean(), 1e-6f);
+  const float above = sky().radiance(Eigen::Vector3f::UnitZ(), night, kPixel).mean();
+  EXPECT_GT(above, 0.2f * night.sky.mean());
+  EXPECT_LT(above, 2.0f * night.sky.mean());
+}
+
 TEST(Sky, IsThreeTimesAsBrightOverheadOnAnOvercastDay) {
   const Light light = overcast_light_at(10.0);
   const float high = sky().radiance(Eigen::Vector3f::UnitZ(), light, kPixel).mean();

@@ -241,10 +241,11 @@ class RowExposure {
 }  // namespace
 
 Sensor::Sensor(const SensorParameters& parameters, const LensEffects& effects, cv::Size size, std::uint64_t seed)
-    : parameters_(parameters), effects_(effects), seed_(seed), gain_(1.0) {
+    : parameters_(parameters), effects_(effects), seed_(seed), gain_(parameters.start_gain) {
   const auto is_positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (size.width <= 0 || size.height <= 0) throw std::invalid_argument("sensor: the image size must be positive");
   if (!is_positive(parameters.full_well)) throw std::invalid_argument("sensor: full_well must be positive");
+  if (!is_positive(parameters.start_gain)) throw std::invalid_argument("sensor: start_gain must be positive");
   if (!is_positive(parameters.gamma)) throw std::invalid_argument("sensor: gamma must be positive");
   if (!(parameters.target_brightness > 0.0 && parameters.target_brightness < 1.0)) {
     throw std::invalid_argument("sensor: target_brightness must lie between 0 and 1");

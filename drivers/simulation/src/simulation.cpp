@@ -55,6 +55,14 @@ vision::StereoCalibration aged(const vision::StereoCalibration& published, doubl
   return actual;
 }
 
+/// A camera that has got used to the dark: it amplifies its signal, so that a white pixel has fewer electrons.
+SensorParameters at_night(SensorParameters sensor) {
+  constexpr double kAmplification = 12.0, kGain = 25.0;
+  sensor.full_well /= kAmplification;
+  sensor.start_gain = kGain;
+  return sensor;
+}
+
 }  // namespace
 
 Simulation::Simulation(const SimulationParameters& parameters) : parameters_(parameters) {
@@ -64,7 +72,7 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
   const std::uint64_t own = day.seed.value_or(seed);
   const auto path = drive(simulated_world::campus_roads(seed), route, day.left_m);
   motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness), motion, own);
-  weather_ = std::make_unique<Weather>(day.hour, motion_->duration_s(), effects, own, day.overcast);
+  weather_ = std::make_unique<Weather>(day, motion_->duration_s(), effects, own);
   plan_instants();
 
   const LensEffects lens{effects.rain ? 0.6 : 0.0, effects.smear ? 0.7 : 0.0};
@@ -72,7 +80,8 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
                               const Eigen::Isometry3d& base_from_camera, const SensorParameters& sensor,
                               std::string_view name) {
     const cv::Size size(rays.width, rays.height);
-    cameras.push_back({std::move(rays), base_from_camera, Sensor(sensor, lens, size, Random(own, name).bits())});
+    const auto adjusted = day.night ? at_night(sensor) : sensor;
+    cameras.push_back({std::move(rays), base_from_camera, Sensor(adjusted, lens, size, Random(own, name).bits())});
   };
   if (stereo) {
     auto eyes = rig.stereo;

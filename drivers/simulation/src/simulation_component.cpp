@@ -32,6 +32,7 @@ struct ComponentParameters {
   double hour = 10.5;
   std::string season = "summer";
   bool overcast = false;
+  bool night = false;
   double vibration = 1.0;
   double calibration_error = 0.0;
   double start_s = 0.0;
@@ -54,6 +55,7 @@ struct ComponentParameters {
     field(&P::season, "season", "", "bare: trees without leaves; snow: also snow on what faces upwards",
           {"summer", "bare", "snow"});
     field(&P::overcast, "overcast", "", "a closed layer of clouds, no shadows");
+    field(&P::night, "night", "", "street lamps and lit windows instead of the sun");
     field(&P::vibration, "vibration", "1", "scale of the vehicle's vibration; 0: none", 0.0, 10.0);
     field(&P::calibration_error, "calibration_error", "1",
           "error of the published stereo calibration; 0: exact, 1: a good one after months of driving", 0.0, 100.0);
@@ -86,6 +88,7 @@ SimulationParameters to_simulation(const ComponentParameters& parameters) {
   simulation.day.hour = parameters.hour;
   simulation.day.season = season_of(parameters.season);
   simulation.day.overcast = parameters.overcast;
+  simulation.day.night = parameters.night;
   simulation.assets = parameters.assets;
   simulation.start_s = parameters.start_s;
   simulation.duration_s = parameters.duration_s;

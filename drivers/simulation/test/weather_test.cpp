@@ -8,8 +8,10 @@
 namespace panvo::simulation {
 namespace {
 
+const Day kTen{.hour = 10.0};
+
 TEST(Weather, IsSteadyWithoutEffects) {
-  const Weather weather(10.0, 600.0, {}, 1);
+  const Weather weather(kTen, 600.0, {}, 1);
   EXPECT_TRUE(weather.clouds().empty());
   EXPECT_EQ(weather.cloud_cover(0.0), weather.cloud_cover(500.0));
   EXPECT_EQ(weather.hour(600.0), 10.0);
@@ -18,14 +20,14 @@ TEST(Weather, IsSteadyWithoutEffects) {
 TEST(Weather, TheSunGoesOnByTwoHoursOverTheJourney) {
   Effects effects;
   effects.sun_drift = true;
-  const Weather weather(10.0, 600.0, effects, 1);
+  const Weather weather(kTen, 600.0, effects, 1);
   EXPECT_DOUBLE_EQ(weather.hour(600.0), 12.0);
 }
 
 TEST(Weather, ACloudTakesTheSunWithinHalfASecondAndGivesItBack) {
   Effects effects;
   effects.sudden_light = true;
-  const Weather weather(10.0, 600.0, effects, 3);
+  const Weather weather(kTen, 600.0, effects, 3);
   ASSERT_GE(weather.clouds().size(), 10u);
   for (const auto& cloud : weather.clouds()) {
     const double before = weather.cloud_cover(cloud.from_s);
@@ -39,10 +41,22 @@ TEST(Weather, ACloudTakesTheSunWithinHalfASecondAndGivesItBack) {
 TEST(Weather, OfAnOvercastDayHasNoSun) {
   Effects effects;
   effects.sudden_light = true;
-  const Weather weather(10.0, 600.0, effects, 3, true);
+  const Weather weather({.overcast = true}, 600.0, effects, 3);
   EXPECT_TRUE(weather.clouds().empty());
   EXPECT_EQ(weather.light(100.0).sun.norm(), 0.0f);
   EXPECT_TRUE(weather.light(100.0).overcast);
+}
+
+TEST(Weather, AtNightLampsReplaceTheSun) {
+  Effects effects;
+  effects.sudden_light = true;
+  const Weather weather({.night = true}, 600.0, effects, 3);
+  EXPECT_TRUE(weather.clouds().empty());
+  EXPECT_TRUE(weather.light(100.0).lamps);
+  EXPECT_EQ(weather.light(100.0).sun.norm(), 0.0f);
+  EXPECT_EQ(weather.light(100.0).evening, weather.light(200.0).evening);
+  EXPECT_NE(weather.light(100.0).evening, Weather({.night = true}, 600.0, effects, 4).light(100.0).evening);
+  EXPECT_FALSE(Weather(kTen, 600.0, effects, 3).light(100.0).lamps);
 }
 
 }  // namespace

@@ -86,7 +86,9 @@ void describe_options(CLI::App& app, Options& options) {
   app.add_option("--hilliness", s.hilliness, "0: flat, 1: hills of 8 m")
       ->check(CLI::Range(0.0, 2.0))
       ->capture_default_str();
-  app.add_option("--hour", s.day.hour, "hour of the day at the start, 6 to 18")->check(CLI::Range(6.0, 18.0));
+  auto* hour =
+      app.add_option("--hour", s.day.hour, "hour of the day at the start, 6 to 18")->check(CLI::Range(6.0, 18.0));
+  app.add_flag("--night", s.day.night, "street lamps and lit windows instead of the sun")->excludes(hour);
   app.add_option("--season", options.season, "bare: trees without leaves; snow: also snow on what faces upwards")
       ->check(CLI::IsMember(kSeasonNames))
       ->capture_default_str();

@@ -5,6 +5,22 @@
 #include "mover_models.hpp"
 
 namespace panvo::simulated_world {
+namespace {
+
+constexpr float kLampHeight_m = 6.5f, kLanternHeight_m = 3.6f;
+
+/// The lights of the lamp posts that were set up; outside their housings, so that these cast no shadow.
+void light_lamps(const FurnitureModels& models, Scene& scene) {
+  for (const auto& placement : scene.standing) {
+    const auto add = [&](const Eigen::Vector3f& in_model, float intensity, bool hangs) {
+      scene.lamps.push_back({placement.world_from_model * in_model, intensity, hangs});
+    };
+    if (placement.model == models.lamp) add({0.0f, -1.85f, kLampHeight_m + 0.3f}, 2.4f, true);
+    if (placement.model == models.lantern) add({0.0f, 0.0f, kLanternHeight_m + 0.2f}, 0.7f, false);
+  }
+}
+
+}  // namespace
 
 FurnitureModels build_furniture_models(const Palette& palette, std::uint64_t seed, Scene& scene) {
   const PlantMaterials plants(palette);
@@ -38,8 +54,8 @@ FurnitureModels build_furniture_models(const Palette& palette, std::uint64_t see
   models.stop_signs = {add(build_sign(things, SignKind::kStop))};
   for (const auto kind : {SignKind::kSquare, SignKind::kPlace, SignKind::kArrow})
     models.signs.push_back(add(build_sign(things, kind)));
-  models.lamp = add(build_lamp_post(things, 6.5f, false));
-  models.lantern = add(build_lamp_post(things, 3.6f, true));
+  models.lamp = add(build_lamp_post(things, kLampHeight_m, false));
+  models.lantern = add(build_lamp_post(things, kLanternHeight_m, true));
   models.litter_bin = add(build_litter_bin(things));
   models.wheelie_bin = add(build_wheelie_bin(things));
   models.bench = add(build_bench(things));
@@ -62,6 +78,7 @@ void build_furniture(const Site& site, const std::vector<Plot>& plots, Scene& sc
   planner.plant_rows();
   planner.plant_at_walls();
   planner.scatter_trees();
+  light_lamps(models, scene);
 }
 
 }  // namespace panvo::simulated_world

@@ -111,7 +111,7 @@ void PacketTracer::shade(const SampleRays& samples, const TracedPacket& packet, 
     }
     if (shadow_lanes != 0) {
       for (unsigned i = 0; i < kPacket; ++i)
-        shaded.shadow.tfar[i] = valid[i] != 0 ? std::numeric_limits<float>::infinity() : kNotTraced;
+        if (valid[i] == 0) shaded.shadow.tfar[i] = kNotTraced;
       statistics.shadow_rays += static_cast<std::uint64_t>(std::popcount(shadow_lanes));
       auto context = trace_context(kSunSpread, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
       for (unsigned i = 0; i < kPacket; ++i) shaded.shadow.id[i] = i;

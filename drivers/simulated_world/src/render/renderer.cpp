@@ -98,6 +98,15 @@ void trace_centres(const PacketTracer& tracer, const CameraRays& rays, int top, 
   }
 }
 
+std::vector<LampRecord> records_of(const std::vector<Lamp>& lamps) {
+  std::vector<LampRecord> records;
+  for (const auto& lamp : lamps) {
+    records.push_back(
+        {lamp.position.x(), lamp.position.y(), lamp.position.z(), lamp.intensity, lamp.hangs ? 0.12f : 1.0f});
+  }
+  return records;
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -105,7 +114,8 @@ struct Renderer::State {
       : scene(std::move(seen)),
         materials(*checked(*this).palette),
         environment(*scene->sky),
-        traced(scene, materials) {}
+        traced(scene, materials),
+        lamps(records_of(scene->lamps)) {}
 
   static const Scene& checked(const State& state) {
     if (!state.scene || !state.scene->palette || !state.scene->sky) {
@@ -118,6 +128,7 @@ struct Renderer::State {
   ShadingMaterials materials;
   Environment environment;
   TracedScene traced;
+  std::vector<LampRecord> lamps;
   Statistics statistics;
 };
 
@@ -142,6 +153,9 @@ cv::Mat Renderer::render(const CameraRays& rays, const Shot& shot, const Light& 
   tables.ground = to_array(light.ground);
   tables.haze = to_array(haze(light));
   tables.haze_per_m = light.haze_per_m;
+  tables.lamps = state.lamps.data();
+  tables.lamp_count = light.lamps ? static_cast<std::uint32_t>(state.lamps.size()) : 0;
+  tables.evening = light.evening;
   tables.texture_taps = std::clamp(quality.texture_taps, 1, 16);
   const Eigen::Vector3d moved =
       shot.world_from_camera_closed.translation() - shot.world_from_camera_opened.translation();

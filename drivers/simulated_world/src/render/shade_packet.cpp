@@ -18,6 +18,8 @@ namespace baseline {
 //
 #include "packet_textures.inl"
 //
+#include "packet_surfaces.inl"
+//
 #include "shade_packet.inl"
 }  // namespace baseline
 

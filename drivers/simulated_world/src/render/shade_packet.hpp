@@ -32,11 +32,19 @@ struct MaterialRecord {
   float gloss = 0.0f, translucency = 0.0f;
   std::uint32_t flags = 0;
   float snow = 0.0f;
-  std::array<std::uint32_t, 2> padding{};
+  float shine = 0.0f;  ///< radiance with the lamps on
+  std::uint32_t padding = 0;
 };
 static_assert(sizeof(MaterialRecord) == 16 * sizeof(std::uint32_t));
-inline constexpr std::uint32_t kHasOverlay = 1, kOverlayIsScattered = 2, kTakesObjectTint = 4,
-                               kHasHoles = 8;  ///< flags
+inline constexpr std::uint32_t kHasOverlay = 1, kOverlayIsScattered = 2, kTakesObjectTint = 4, kHasHoles = 8,
+                               kIsWindow = 16;  ///< flags
+
+/// A lamp in the layout used for shading.
+struct LampRecord {
+  float x = 0.0f, y = 0.0f, z = 0.0f, intensity = 0.0f;
+  float sideways = 1.0f;  ///< fraction of the light that goes sideways
+};
+inline constexpr float kLampReach_m = 45.0f;  ///< beyond it a lamp adds less than the night sky
 
 /// Inputs of shading, from scene and frame.
 struct ShadingTables {
@@ -50,6 +58,9 @@ struct ShadingTables {
   std::array<float, 3> to_sun{}, sun{}, sky{}, ground{}, haze{};
   float haze_per_m = 0.0f;
   bool has_snow = false;
+  const LampRecord* lamps = nullptr;
+  std::uint32_t lamp_count = 0;            ///< 0: the lamps are off
+  std::uint32_t evening = 0;               ///< decides which rooms are lit
   std::array<float, 3> camera_motion{};    ///< while the shutter is open, m
   std::array<float, 9> camera_rotation{};  ///< change of a world direction in that time, row by row
   int texture_taps = 4;
@@ -67,7 +78,7 @@ struct alignas(64) TracedPacket {
 /// Copies a ray with its hit from one packet to another.
 void copy_lane(const TracedPacket& from, std::size_t lane, TracedPacket& to, std::size_t to_lane);
 
-/// Radiance along sixteen rays that hit something: base + (sun, unless in shadow).
+/// Radiance along sixteen rays that hit something: base + (sun, unless in shadow). At night `sun` is the brightest lamp.
 struct alignas(64) ShadedPacket {
   float base[3][kPacket];
   float sun[3][kPacket];

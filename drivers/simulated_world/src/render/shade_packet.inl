@@ -1,14 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shades sixteen hits. Included once per instruction set, after packet_textures.inl; see packet_math.inl.
-
-/// Unpacks octahedral normals.
-PANVO_INLINE Vector3 unpacked_normal(const Word& packed) {
-  const Float x = to_float((Int)(packed << 16) >> 16) * (1.0f / 32767.0f);
-  const Float y = to_float((Int)packed >> 16) * (1.0f / 32767.0f);
-  const Float z = 1.0f - absolute(x) - absolute(y);
-  const Float over = maximum(-z, all(0.0f));
-  return {x + choose(x >= 0.0f, -over, over), y + choose(y >= 0.0f, -over, over), z};
-}
+// Shades sixteen hits. Included once per instruction set, after packet_surfaces.inl; see packet_math.inl.
 
 PANVO_INLINE Vector3 seen_in_mirror(const ShadingTables& tables, const Vector3& direction) {
   const Float sum = 1.0f / (absolute(direction.x) + absolute(direction.y) + absolute(direction.z));
@@ -31,116 +22,6 @@ PANVO_INLINE Vector3 seen_in_mirror(const ShadingTables& tables, const Vector3& 
   const Vector3 up = top_left + right_share * (gather3(map + 3, index) - top_left);
   const Vector3 low = low_left + right_share * (gather3(map + 3 * kEnvironmentSide + 3, index) - low_left);
   return up + low_share * (low - up);
-}
-
-/// What the rays hit.
-struct Hit {
-  Vector3 direction, point;
-  Float time, distance;
-  Float first, second, third;  ///< barycentric coordinates
-  Int is_hit, is_fixed;
-  Word object;                 ///< into the objects
-  Word object_words, surface;  ///< first words of the records of object and surface
-};
-
-PANVO_INLINE Hit hit_of(const ShadingTables& tables, const TracedPacket& traced) {
-  const auto& rays = traced.rays.ray;
-  const auto& hits = traced.rays.hit;
-  Hit hit;
-  const Vector3 origin{load<Float>(rays.org_x), load<Float>(rays.org_y), load<Float>(rays.org_z)};
-  hit.direction = {load<Float>(rays.dir_x), load<Float>(rays.dir_y), load<Float>(rays.dir_z)};
-  hit.time = load<Float>(rays.time);
-  const Word geometry = load<Word>(hits.geomID);
-  hit.is_hit = geometry != RTC_INVALID_GEOMETRY_ID;
-  hit.distance = choose(hit.is_hit, load<Float>(rays.tfar), all(1.0f));
-  hit.point = origin + hit.distance * hit.direction;
-  hit.second = load<Float>(hits.u);
-  hit.third = load<Float>(hits.v);
-  hit.first = 1.0f - hit.second - hit.third;
-
-  const Word instance = load<Word>(hits.instID[0]);
-  hit.is_fixed = instance == RTC_INVALID_GEOMETRY_ID;
-  Word object = (Word)(hit.is_fixed ? (Int)(geometry >> 1) : (Int)instance);
-  object = object + ((Word)load<Int>(traced.is_moving) & all_word(tables.first_moving_object));
-  hit.object = object & (Word)hit.is_hit;
-  hit.object_words = hit.object * (std::uint32_t)(sizeof(ObjectRecord) / 4);
-  const auto* objects = (const std::uint32_t*)tables.objects;
-  const Word first_surface = gather(objects, hit.object_words + (geometry & 1u & (Word)hit.is_hit));
-  hit.surface = (first_surface + (load<Word>(hits.primID) & (Word)hit.is_hit)) * 16u;
-  return hit;
-}
-
-/// The surface at the hits, in the world frame.
-struct Surface {
-  Vector3 flat, normal;            ///< of the triangle; interpolated between its corners
-  Vector3 u_gradient, v_gradient;  ///< of the texture's coordinates, per m
-  Vector3 motion;                  ///< of the ray's point on the surface while the shutter is open, m
-  Vector3 object_tint;
-};
-
-/// Turns a model's surface into the world, with the motion of its object.
-PANVO_INLINE void place(const ShadingTables& tables, const Hit& hit, const Int& is_placed, Surface& surface) {
-  const auto* object_words = (const std::uint32_t*)tables.objects;
-  const auto* object_numbers = (const float*)tables.objects;
-  const Int is_instance = ~hit.is_fixed & hit.is_hit;  // a mover; standing models are copies, not instances
-  const Int moves = (Int)gather(object_words + 29, hit.object_words) != 0;
-  Vector3 axis_x = gather3(object_numbers + 2, hit.object_words);
-  Vector3 axis_y = gather3(object_numbers + 5, hit.object_words);
-  Vector3 axis_z = gather3(object_numbers + 8, hit.object_words);
-  if (any(moves & is_placed)) {
-    const Vector3 moved_x = gather3(object_numbers + 14, hit.object_words);
-    const Vector3 moved_y = gather3(object_numbers + 17, hit.object_words);
-    const Vector3 moved_z = gather3(object_numbers + 20, hit.object_words);
-    axis_x = axis_x + hit.time * moved_x;
-    axis_y = axis_y + hit.time * moved_y;
-    axis_z = axis_z + hit.time * moved_z;
-    const Vector3 foot =
-        gather3(object_numbers + 11, hit.object_words) + hit.time * gather3(object_numbers + 23, hit.object_words);
-    const Vector3 from_foot = (1.0f / dot(axis_x, axis_x)) * (hit.point - foot);
-    const Vector3 own = gather3(object_numbers + 23, hit.object_words) + dot(axis_x, from_foot) * moved_x +
-                        dot(axis_y, from_foot) * moved_y + dot(axis_z, from_foot) * moved_z;
-    surface.motion = choose(moves & is_placed, surface.motion - own, surface.motion);
-  }
-  const auto turned = [&](const Int& which, const Vector3& vector) PANVO_ALWAYS {
-    return choose(which, vector.x * axis_x + vector.y * axis_y + vector.z * axis_z, vector);
-  };
-  surface.flat = turned(is_instance, surface.flat);
-  surface.normal = turned(is_placed, surface.normal);
-  const Float shrunk = 1.0f / choose(is_placed, dot(axis_x, axis_x), all(1.0f));
-  surface.u_gradient = shrunk * turned(is_placed, surface.u_gradient);
-  surface.v_gradient = shrunk * turned(is_placed, surface.v_gradient);
-  surface.object_tint = gather3(object_numbers + 26, hit.object_words);
-}
-
-PANVO_INLINE Surface surface_of(const ShadingTables& tables, const TracedPacket& traced, const Hit& hit) {
-  const auto& hits = traced.rays.hit;
-  const auto& direction = hit.direction;
-  const auto* words = (const std::uint32_t*)tables.surfaces;
-  Surface surface;
-  surface.flat = {load<Float>(hits.Ng_x), load<Float>(hits.Ng_y), load<Float>(hits.Ng_z)};
-  surface.normal = hit.first * unpacked_normal(gather(words, hit.surface)) +
-                   hit.second * unpacked_normal(gather(words + 1, hit.surface)) +
-                   hit.third * unpacked_normal(gather(words + 2, hit.surface));
-  const Word gradient_0 = gather(words + 13, hit.surface);
-  const Word gradient_1 = gather(words + 14, hit.surface);
-  const Word gradient_2 = gather(words + 15, hit.surface);
-  surface.u_gradient = {bits_of(gradient_0 << 16), bits_of(gradient_0 & 0xffff0000u), bits_of(gradient_1 << 16)};
-  surface.v_gradient = {bits_of(gradient_1 & 0xffff0000u), bits_of(gradient_2 << 16),
-                        bits_of(gradient_2 & 0xffff0000u)};
-  const auto& turn = tables.camera_rotation;
-  surface.motion = all(tables.camera_motion) +
-                   hit.distance * Vector3{turn[0] * direction.x + turn[1] * direction.y + turn[2] * direction.z,
-                                          turn[3] * direction.x + turn[4] * direction.y + turn[5] * direction.z,
-                                          turn[6] * direction.x + turn[7] * direction.y + turn[8] * direction.z};
-  surface.object_tint = {all(1.0f), all(1.0f), all(1.0f)};
-  const Int is_placed = ((Int)gather((const std::uint32_t*)tables.objects + 30, hit.object_words) != 0) & hit.is_hit;
-  if (any(is_placed)) place(tables, hit, is_placed, surface);
-  surface.flat = normalized(surface.flat);
-  surface.normal = normalized(surface.normal);
-  // surfaces are two-sided
-  surface.flat = choose(dot(surface.flat, direction) > 0.0f, all(-1.0f) * surface.flat, surface.flat);
-  surface.normal = choose(dot(surface.normal, surface.flat) < 0.0f, all(-1.0f) * surface.normal, surface.normal);
-  return surface;
 }
 
 /// Material, tint and ambient light at the hits.
@@ -237,26 +118,93 @@ PANVO_INLINE Vector3 under_snow(const ShadingTables& tables, const Look& look, c
   return albedo + cover * (Vector3{white, white, white} - albedo);
 }
 
-/// The light that leaves the surface: sky and ground as far as visible, sun from the front or through a leaf.
+/// The light that may be in shadow: that of the sun, at night that of the lamp that is brightest here.
+struct DirectLight {
+  Vector3 towards, colour;
+  Float reach;          ///< of the shadow ray, m
+  Float flat_facing;    ///< cosine of its angle from the triangle's normal
+  Vector3 other_lamps;  ///< radiance of a white surface by all others, without shadows
+};
+
+PANVO_INLINE DirectLight sunlight(const ShadingTables& tables, const Surface& surface) {
+  const Vector3 towards = all(tables.to_sun);
+  const Float far = all(std::numeric_limits<float>::infinity());
+  const Vector3 no_lamps{all(0.0f), all(0.0f), all(0.0f)};
+  return {towards, all(tables.sun), far, dot(surface.flat, towards), no_lamps};
+}
+
+/// Sodium light is orange, LEDs are white: between them.
+PANVO_INLINE Vector3 lamp_colour(const Float& brightness) {
+  return {1.12f * brightness, 0.98f * brightness, 0.72f * brightness};
+}
+
+/// Radiance of a white surface perpendicular to the light of a lamp. `way`: from the surface to the lamp.
+PANVO_INLINE Float light_of(const LampRecord& lamp, const Vector3& way, const Float& square) {
+  const Float downwards = clamped(way.z * (1.0f / root(square)), 0.0f, 1.0f);
+  const Float share = square * (1.0f / (kLampReach_m * kLampReach_m));
+  const Float fade = maximum(1.0f - share * share, all(0.0f));  // reaches nothing smoothly
+  return lamp.intensity * (lamp.sideways + (1.0f - lamp.sideways) * downwards) * fade * (1.0f / square);
+}
+
+PANVO_INLINE DirectLight lamplight(const ShadingTables& tables, const Hit& hit, const Surface& surface) {
+  constexpr float kHousing_m = 0.7f;  // a lamp's own head and post cast no shadow
+  DirectLight light = sunlight(tables, surface);
+  Float brightest = all(0.0f), sum = all(0.0f);
+  for (std::uint32_t i = 0; i < tables.lamp_count; ++i) {
+    const LampRecord& lamp = tables.lamps[i];
+    const Vector3 way{lamp.x - hit.point.x, lamp.y - hit.point.y, lamp.z - hit.point.z};
+    const Float square = maximum(dot(way, way), all(0.25f));
+    if (!any((square < kLampReach_m * kLampReach_m) & hit.is_hit)) continue;
+    const Vector3 towards = (1.0f / root(square)) * way;
+    const Float received = light_of(lamp, way, square);
+    const Float lit = maximum(dot(surface.normal, towards), all(0.0f)) * received;
+    const Int is_brighter = lit > brightest;
+    sum = sum + lit;
+    brightest = choose(is_brighter, lit, brightest);
+    light.towards = choose(is_brighter, towards, light.towards);
+    light.colour = choose(is_brighter, lamp_colour(received), light.colour);
+    light.reach = choose(is_brighter, maximum(root(square) - kHousing_m, all(0.01f)), light.reach);
+  }
+  light.flat_facing = dot(surface.flat, light.towards);
+  light.other_lamps = lamp_colour(sum - brightest);
+  return light;
+}
+
+/// What shines by itself: lamp heads, and windows of lit rooms.
+PANVO_INLINE Vector3 shine_of(const ShadingTables& tables, const Hit& hit, const Look& look) {
+  constexpr float kRoom_m = 4.0f, kStorey_m = 3.0f;
+  constexpr std::uint32_t kLitShare = 0x4800u;  // of 0x10000
+  const auto cell = [](const Float& value, float size) PANVO_ALWAYS { return (Word)floored((1.0f / size) * value); };
+  Word mixed = cell(hit.point.x, kRoom_m) * 0x9e3779b1u + cell(hit.point.y, kRoom_m) * 0x85ebca77u +
+               cell(hit.point.z, kStorey_m) * 0xc2b2ae3du + tables.evening;
+  mixed = (mixed ^ (mixed >> 15)) * 0x2c1b3c6du;
+  mixed = (mixed ^ (mixed >> 12)) * 0x297a2d39u;
+  const Int is_dark = ((Int)(look.flags & kIsWindow) != 0) & ((Int)(mixed >> 16) >= (std::int32_t)kLitShare);
+  const Float shine = gather((const float*)tables.materials + 14, look.material_words);
+  const Float varied = shine * (0.6f + (0.8f / 255.0f) * to_float((Int)(mixed & 0xffu)));
+  return lamp_colour(choose(is_dark, all(0.0f), varied));
+}
+
+/// The light that leaves the surface: sky and ground as far as visible, direct light from the front or through a leaf.
 struct Radiance {
   Vector3 base, sun;
-  Float direct;  ///< share of the sunlight, unless in shadow
+  Float direct;  ///< share of the direct light, unless in shadow
 };
 
 PANVO_INLINE Radiance radiance_of(const ShadingTables& tables, const Hit& hit, const Surface& surface, const Look& look,
-                                  const Vector3& albedo, const Float& flat_facing) {
+                                  const Vector3& albedo, const DirectLight& light) {
   const auto* numbers = (const float*)tables.materials;
-  const Vector3 to_sun = all(tables.to_sun);
   const Vector3& normal = surface.normal;
   const Float upwards = 0.5f + 0.5f * normal.z;
-  const Vector3 indirect = look.open * (upwards * all(tables.sky) + (1.0f - upwards) * all(tables.ground));
+  Vector3 indirect = look.open * (upwards * all(tables.sky) + (1.0f - upwards) * all(tables.ground));
+  if (tables.lamp_count > 0) indirect = indirect + light.other_lamps;
   const Float translucency = gather(numbers + 11, look.material_words);
-  const Float facing = dot(normal, to_sun);
+  const Float facing = dot(normal, light.towards);
   Radiance radiance;
   radiance.direct = choose(facing > 0.0f, (1.0f - translucency) * facing, -translucency * facing);
-  radiance.direct = choose((flat_facing > 0.0f) | (translucency > 0.0f), radiance.direct, all(0.0f));
+  radiance.direct = choose((light.flat_facing > 0.0f) | (translucency > 0.0f), radiance.direct, all(0.0f));
   radiance.base = albedo * indirect;
-  radiance.sun = radiance.direct * (albedo * all(tables.sun));
+  radiance.sun = radiance.direct * (albedo * light.colour);
 
   const Float gloss = gather(numbers + 10, look.material_words);
   if (any((gloss > 0.0f) & hit.is_hit)) {
@@ -268,25 +216,25 @@ PANVO_INLINE Radiance radiance_of(const ShadingTables& tables, const Hit& hit, c
     radiance.base = (1.0f - mirrored) * radiance.base + (mirrored * look.open) * seen;
     radiance.sun = (1.0f - mirrored) * radiance.sun;
   }
+  if (tables.lamp_count > 0) radiance.base = radiance.base + shine_of(tables, hit, look);
   const Float clear = rough_exp2(maximum(hit.distance * (-1.442695f * tables.haze_per_m), all(-100.0f)));
   radiance.base = clear * radiance.base + (1.0f - clear) * all(tables.haze);
   radiance.sun = clear * radiance.sun;
   return radiance;
 }
 
-PANVO_INLINE void store_shadow_rays(const ShadingTables& tables, const Hit& hit, const Surface& surface,
-                                    const Float& flat_facing, RTCRay16& shadow) {
-  const Vector3 to_sun = all(tables.to_sun);
+PANVO_INLINE void store_shadow_rays(const Hit& hit, const Surface& surface, const DirectLight& light,
+                                    RTCRay16& shadow) {
   const Float offset = 1e-3f + 2e-4f * hit.distance;
-  const Vector3 above = hit.point + choose(flat_facing > 0.0f, offset, -offset) * surface.flat;
+  const Vector3 above = hit.point + choose(light.flat_facing > 0.0f, offset, -offset) * surface.flat;
   store(shadow.org_x, above.x);
   store(shadow.org_y, above.y);
   store(shadow.org_z, above.z);
-  store(shadow.dir_x, to_sun.x);
-  store(shadow.dir_y, to_sun.y);
-  store(shadow.dir_z, to_sun.z);
+  store(shadow.dir_x, light.towards.x);
+  store(shadow.dir_y, light.towards.y);
+  store(shadow.dir_z, light.towards.z);
   store(shadow.tnear, all(0.0f));
-  store(shadow.tfar, all(std::numeric_limits<float>::infinity()));
+  store(shadow.tfar, light.reach);
   store(shadow.time, hit.time);
   store(shadow.mask, all_word(kToShadow));
   store(shadow.flags, all_word(0));
@@ -299,14 +247,14 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
   const Footprint footprint = footprint_of(tables, traced, hit, surface);
   Vector3 albedo = albedo_of(tables, hit, look, surface.object_tint, footprint);
   if (tables.has_snow) albedo = under_snow(tables, look, surface.normal, albedo);
-  const Float flat_facing = dot(surface.flat, all(tables.to_sun));
-  const Radiance radiance = radiance_of(tables, hit, surface, look, albedo, flat_facing);
+  const DirectLight light = tables.lamp_count > 0 ? lamplight(tables, hit, surface) : sunlight(tables, surface);
+  const Radiance radiance = radiance_of(tables, hit, surface, look, albedo, light);
 
   store3(shaded.base, radiance.base);
   store3(shaded.sun, radiance.sun);
   const Int wants_shadow = (radiance.direct > 0.0f) & hit.is_hit;
   store(shaded.wants_shadow, wants_shadow);
-  store_shadow_rays(tables, hit, surface, flat_facing, shaded.shadow);
+  store_shadow_rays(hit, surface, light, shaded.shadow);
   store(shaded.key, ((hit.object << 8) | look.material) + 1u);
   const auto byte = [](const Float& value) PANVO_ALWAYS { return (Word)truncated(value * 127.0f) & 0xffu; };
   const Vector3& normal = surface.normal;

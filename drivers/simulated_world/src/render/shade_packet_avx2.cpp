@@ -19,6 +19,8 @@ namespace panvo::simulated_world::avx2 {
 //
 #include "packet_textures.inl"
 //
+#include "packet_surfaces.inl"
+//
 #include "shade_packet.inl"
 }  // namespace panvo::simulated_world::avx2
 #pragma GCC pop_options

@@ -36,6 +36,14 @@ struct LevelShape {
   std::uint32_t columns, rows;  ///< masks: number minus one
 };
 
+/// What shines at night.
+void set_shine(const std::string& name, MaterialRecord& record) {
+  if (name == "lamp_head") record.shine = 1.0f;
+  if (name == "glass") record.shine = 0.03f;
+  if (name.starts_with("curtain")) record.shine = name == "curtain_dark" ? 0.004f : 0.018f;
+  if (name == "glass" || name.starts_with("curtain")) record.flags |= kIsWindow;
+}
+
 }  // namespace
 
 ShadingMaterials::ShadingMaterials(const Palette& palette) {
@@ -80,6 +88,7 @@ ShadingMaterials::ShadingMaterials(const Palette& palette) {
     }
     if (material.name.ends_with("_paint") || material.name.starts_with("leaves")) record.flags |= kTakesObjectTint;
     if (material.has_holes) record.flags |= kHasHoles;
+    set_shine(material.name, record);
     materials_.push_back(record);
   }
 }

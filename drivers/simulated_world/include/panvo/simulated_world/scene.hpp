@@ -24,6 +24,13 @@ struct Placement {
   std::uint32_t visibility = kToAll;
 };
 
+/// A street lamp.
+struct Lamp {
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< of the light, m
+  float intensity = 1.0f;  ///< radiance of a white surface that it lights perpendicularly from 1 m
+  bool hangs = false;      ///< lights what is below; else all around
+};
+
 /// All visible objects, in the world frame (x east, y north, z up; m).
 struct Scene {
   std::shared_ptr<const Palette> palette;
@@ -31,6 +38,7 @@ struct Scene {
   std::vector<Mesh> fixed;          ///< ground and buildings
   std::vector<Mesh> models;         ///< trees, lamp posts, cars, people: base at the origin, x forward
   std::vector<Placement> standing;  ///< models that never move
+  std::vector<Lamp> lamps;          ///< on at night (see Light)
 };
 
 }  // namespace panvo::simulated_world

@@ -15,8 +15,9 @@ struct Day {
   double hour = 10.5;  ///< of the day at the start, 6 to 18
   simulated_world::Season season = simulated_world::Season::kSummer;
   bool overcast = false;
-  double left_m = 0.0;                ///< the vehicle keeps that far to the left of its lane's middle
-  std::optional<std::uint64_t> seed;  ///< of vibration, noise, traffic and clouds; nullopt: that of the campus
+  bool night = false;                   ///< street lamps instead of the sun; `hour` has no meaning
+  double left_m = 0.0;                  ///< the vehicle keeps that far to the left of its lane's middle
+  std::optional<std::uint64_t> seed{};  ///< of vibration, noise, traffic and clouds; nullopt: that of the campus
 };
 
 /// Names of the seasons, in order of simulated_world::Season.

@@ -15,6 +15,7 @@ struct SensorParameters {
   double blur_px = 0.45;                        ///< standard deviation of the lens's point spread
   double target_brightness = 0.45;              ///< target of exposure control for the mean of the metered rows, 0..1
   double metered_from = 0.0, metered_to = 1.0;  ///< metered rows, as fractions of the height, to exclude the sky
+  double start_gain = 1.0;                      ///< of the first frame
   double exposure_lag = 0.15;                   ///< fraction of the correction applied per frame; 0: fixed exposure
   double gamma = 2.2;
 };

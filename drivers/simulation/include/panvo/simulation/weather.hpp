@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "panvo/simulated_world/sky.hpp"
+#include "panvo/simulation/day.hpp"
 #include "panvo/simulation/effects.hpp"
 
 namespace panvo::simulation {
@@ -12,8 +13,8 @@ namespace panvo::simulation {
 /// The light during a journey: hour of the day, and clouds in front of the sun.
 class Weather {
  public:
-  /// `hour` of the day at the start (see light_at); an overcast day has no clouds that come and go.
-  Weather(double hour, double duration_s, const Effects& effects, std::uint64_t seed, bool overcast = false);
+  /// Clouds come and go with sudden_light, neither on an overcast day nor at night.
+  Weather(const Day& day, double duration_s, const Effects& effects, std::uint64_t seed);
 
   simulated_world::Light light(double t_s) const;
   double hour(double t_s) const;
@@ -27,8 +28,9 @@ class Weather {
   const std::vector<Cloud>& clouds() const { return clouds_; }
 
  private:
-  double hour_, hours_per_s_;
-  bool overcast_;
+  Day day_;
+  double hours_per_s_;
+  std::uint32_t evening_;
   std::vector<Cloud> clouds_;
 };
 
