@@ -270,10 +270,13 @@ TEST_F(PositionCorrectorComponent, TellsThatGeometryRejectedALandmark) {
   EXPECT_EQ(corrections[0]->reason().rfind("landmark 2: ", 0), 0U) << corrections[0]->reason();
 }
 
-TEST_F(PositionCorrectorComponent, SaysNothingOfAPanoramaWithoutLandmarks) {
+TEST_F(PositionCorrectorComponent, RejectsTheMostSimilarLandmarkWhereThereIsNone) {
   publish_landmark(1, 1);
   publish_panorama(place(80));
-  EXPECT_TRUE(corrections.empty());
+  EXPECT_NE(matches.back()->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED);
+  for (const auto& correction : corrections) {
+    EXPECT_EQ(correction->state(), panvo_msgs::msg::PositionCorrection_Constants::REJECTED);
+  }
 }
 
 TEST_F(PositionCorrectorComponent, LooksForALandmarkWhereItWasMovedTo) {

@@ -25,8 +25,8 @@ struct MatchingParameters {
   double radius_m = 15.0;
   double radius_sigmas = 3.0;
   double max_histogram_distance = 0.6;  ///< T_h
-  double max_large_distance = 0.85;     ///< T_fl
-  double max_small_distance = 0.9;      ///< T_fs
+  double max_large_distance = 0.95;     ///< T_fl
+  double max_small_distance = 0.95;     ///< T_fs
   int max_verified = 3;
   double window_m = 3.0;
   double window_s = 3.0;
@@ -42,8 +42,8 @@ struct MatchingParameters {
           "addition to the search radius, in standard deviations of the position", 0.0, 10.0);
     field(&P::max_histogram_distance, "max_histogram_distance", "1", "T_h [Lu2015 5.1]", 0.0, 1.0);
     field(&P::max_large_distance, "max_large_distance", "1",
-          "T_fl, large-scale distance relative to its mean over all headings [Lu2015 5.1]; other places have 0.9 +- "
-          "0.05",
+          "T_fl, large-scale distance relative to its mean over all headings [Lu2015 5.1]; other places have 0.85 or more, "
+          "at night the same place up to 0.92",
           0.0, 1.0);
     field(&P::max_small_distance, "max_small_distance", "1", "T_fs, the same for the small-scale features [Lu2015 5.1]",
           0.0, 1.0);
