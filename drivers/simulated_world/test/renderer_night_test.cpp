@@ -45,6 +45,8 @@ TEST(RendererAtNight, LampsLightTheGroundByTheInverseSquareOfTheirDistance) {
   EXPECT_NEAR(lamplight({{{10.0f, 0.0f, 8.0f}, 1.0f, false}}) / near, 0.25f, 0.01f);
   EXPECT_NEAR(lamplight({{{10.0f, 0.0f, 4.0f}, 1.0f, false}, {{10.0f, 0.0f, 4.0f}, 0.5f, false}}) / near, 1.5f, 0.01f);
   EXPECT_NEAR(lamplight({{{70.0f, 0.0f, 4.0f}, 1.0f, false}}), 0.0f, 1e-5f);  // too far
+  const float faint = 100.0f * 4.0f / std::pow(44.2f, 3.0f);  // by the inverse square, at the angle there
+  EXPECT_LT(lamplight({{{54.0f, 0.0f, 4.0f}, 100.0f, false}}), 0.3f * faint) << "fades before it ends";
 }
 
 TEST(RendererAtNight, ALampThatHangsLightsLittleBesideIt) {
