@@ -26,14 +26,14 @@ class PlainRecording {
     folder.write("mav0/cam2/sensor.yaml",
                  "%YAML:1.0\nT_BS:\n  cols: 4\n  rows: 4\n"
                  "  data: [0, 0, 1, 0.5, -1, 0, 0, 0, 0, -1, 0, 2, 0, 0, 0, 1]\n"
-                 "resolution: [64, 32]\ncamera_model: equirectangular\n");
+                 "resolution: [256, 128]\ncamera_model: equirectangular\n");
     std::filesystem::create_directories(folder / "mav0/cam2/data");
     std::string truth = "#timestamp, x, y, z, qw, qx, qy, qz\n", images;
     for (std::size_t i = 0; i < greys.size(); ++i) {
       truth += fmt::format("{},{},0,0,1,0,0,0\n", stamp(static_cast<int>(i)), i);
       images += fmt::format("{0},{0}.png\n", stamp(static_cast<int>(i)));
       cv::imwrite((folder / "mav0/cam2/data" / (std::to_string(stamp(static_cast<int>(i))) + ".png")).string(),
-                  cv::Mat(32, 64, CV_8UC1, cv::Scalar(greys[i])));
+                  cv::Mat(128, 256, CV_8UC1, cv::Scalar(greys[i])));
     }
     folder.write("mav0/cam2/data.csv", images);
     folder.write("mav0/state_groundtruth_estimate0/data.csv", truth);
