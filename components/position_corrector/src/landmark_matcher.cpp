@@ -142,8 +142,9 @@ void LandmarkMatcher::verify(const PanoramaFrame& frame, const landmarks::Landma
     match.inliers = found.inliers;
     match.heading_rad = found.pose->heading_rad;
     match.pose = std::move(found.pose);
-    lock_ =
-        Lock{match.landmark_id, match.heading_rad, match, match.small_distance, frame.travelled_m, frame.stamp_ns, {}};
+    const double offset_m = match.pose->landmark_from_panorama.translation().norm();
+    lock_ = Lock{match.landmark_id, match.heading_rad,   match,          match.small_distance,
+                 offset_m,          frame.travelled_m, frame.stamp_ns, {}};
     lock_->pass = {{{frame.travelled_m, match.small_distance}}, std::move(keypoints)};
     return;
   }
@@ -173,6 +174,8 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
     match.inliers = found.inliers;
     match.weak_pose = std::move(found.weak_pose);
     lock.pass.curve.push_back({frame.travelled_m, match.small_distance});
+    // Far from the landmark the distance is flat and its noise has minima, but poses tell whether it is still ahead.
+    const double offset_m = found.pose ? found.pose->landmark_from_panorama.translation().norm() : lock.nearest_m;
     if (found.pose) {
       match.heading_rad = lock.heading_rad = found.pose->heading_rad;
       match.pose = std::move(found.pose);
@@ -181,8 +184,9 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
         lock.pass.keypoints = std::move(keypoints);
       }
     }
-    if (match.small_distance < lock.min_distance) {
-      lock.min_distance = match.small_distance;
+    if (match.small_distance < lock.min_distance || offset_m < lock.nearest_m) {
+      lock.min_distance = std::min(lock.min_distance, match.small_distance);
+      lock.nearest_m = std::min(lock.nearest_m, offset_m);
       lock.min_at_m = frame.travelled_m;
       lock.min_at_ns = frame.stamp_ns;
     }

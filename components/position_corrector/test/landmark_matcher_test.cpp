@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "panvo/vision/equirectangular.hpp"
 #include "synthetic_place.hpp"
 
 namespace panvo::position_corrector {
@@ -72,6 +73,43 @@ TEST_F(LandmarkMatching, TellsThePlaceOnceItIsPastAndNamesTheMostSimilarPanorama
   EXPECT_LT(match.pass->curve[1].distance, match.pass->curve[2].distance);
   EXPECT_DOUBLE_EQ(match.pass->curve[1].travelled_m, nearest);
   EXPECT_EQ(match.pass->keypoints, detect_keypoints(place(2), keypoints));
+}
+
+/// The view `ahead_m` in front of the landmark, whose points are all 20 m away.
+cv::Mat seen_from(const cv::Mat& panorama, double ahead_m) {
+  const vision::Equirectangular sphere{panorama.cols, panorama.rows};
+  const Eigen::Vector3d position(0.0, 0.0, ahead_m);
+  cv::Mat u(panorama.size(), CV_32FC1), v(panorama.size(), CV_32FC1), view;
+  for (int row = 0; row < panorama.rows; ++row) {
+    for (int column = 0; column < panorama.cols; ++column) {
+      const Eigen::Vector3d bearing = sphere.unproject(Eigen::Vector2d(column, row));
+      const double along = position.dot(bearing);
+      const double range = std::sqrt(along * along + 400.0 - position.squaredNorm()) - along;
+      const Eigen::Vector2d pixel = sphere.project(position + range * bearing);
+      u.at<float>(row, column) = static_cast<float>(pixel.x());
+      v.at<float>(row, column) = static_cast<float>(pixel.y());
+    }
+  }
+  cv::remap(panorama, view, u, v, cv::INTER_LINEAR, cv::BORDER_WRAP);
+  return view;
+}
+
+TEST_F(LandmarkMatching, GoesOnWhileThePosesComeNearerThoughTheViewIsLessSimilar) {
+  EXPECT_EQ(pass(seen_from(place(2), -1.0)).state, MatchState::kLocked);
+  for (const double ahead_m : {-0.8, -0.6, -0.4, -0.2}) {
+    cv::Mat half_hidden = seen_from(place(2), ahead_m);
+    place(50).colRange(0, 500).copyTo(half_hidden.colRange(0, 500));
+    const auto match = pass(half_hidden);
+    ASSERT_EQ(match.state, MatchState::kLocked) << ahead_m;
+    ASSERT_TRUE(match.pose) << ahead_m << ": " << match.reason;
+  }
+  const int nearest = frames + 1;
+  EXPECT_EQ(pass(place(2)).state, MatchState::kLocked);
+  LandmarkMatch match;
+  for (int i = 1; i < 5 && match.state != MatchState::kMatched; ++i) match = pass(seen_from(place(2), i));
+  ASSERT_EQ(match.state, MatchState::kMatched);
+  EXPECT_EQ(match.stamp_ns, nearest * kPeriod_ns);
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_GT(match.pass->curve[i].distance, match.pass->curve[0].distance);
 }
 
 TEST_F(LandmarkMatching, KnowsNoPlaceThatIsNotInTheLibrary) {

@@ -136,9 +136,9 @@ class LandmarkMatcher {
     std::uint32_t landmark_id = 0;
     double heading_rad = 0.0;
     LandmarkMatch best;  ///< among those with a pose, the one with the smallest small-scale distance
-    /// Smallest distance of all panoramas, with or without a pose, and where and when it occurred.
-    double min_distance = 1.0;
-    double min_at_m = 0.0;
+    double min_distance = 1.0;  ///< smallest distance of all panoramas, with or without a pose
+    double nearest_m = std::numeric_limits<double>::infinity();  ///< smallest offset of all poses
+    double min_at_m = 0.0;                                       ///< where and when either was found
     std::int64_t min_at_ns = 0;
     LandmarkPass pass;  // with the keypoints of `best`
   };
