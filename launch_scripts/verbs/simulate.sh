@@ -30,7 +30,7 @@ verb_main() {
   while (($#)); do
     case $1 in
       --bag) as_bag=yes ;;
-      --truth-only | --map) rest+=("$1") ;;
+      --truth-only | --map | --night | --overcast | --rows) rest+=("$1") ;;
       -*=*) rest+=("${1%%=*}" "${1#*=}") ;;
       -*)
         require_value "$@"
@@ -57,7 +57,12 @@ simulate_bag() {
     case $name in
       out) out=$2 ;;
       route | rig | assets) parameters+=(--set "simulation.$name=$(readlink -m -- "$2")") ;;
-      seed | hilliness | hour | vibration | cameras) parameters+=(--set "simulation.$name=$2") ;;
+      night | overcast)
+        parameters+=(--set "simulation.$name=true")
+        shift
+        continue
+        ;;
+      seed | hilliness | hour | season | vibration | cameras) parameters+=(--set "simulation.$name=$2") ;;
       calibration-error) parameters+=(--set "simulation.calibration_error=$2") ;;
       start | duration) parameters+=(--set "simulation.${name}_s=$2") ;;
       random) parameters+=(--set "simulation.random_junctions=$2") ;;

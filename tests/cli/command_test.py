@@ -141,6 +141,23 @@ class Simulate(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("--out needs a value", done.stderr)
 
+    def test_flags_take_no_value(self):
+        with tempfile.TemporaryDirectory() as folder:
+            command, programs = install(folder)
+            write_program(programs / "panvo_simulate", 'echo "$@"')
+            done = panvo("simulate", "--random", "3", "--night", "--overcast", "--rows", "--out", "x", command=command, cwd=folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, "--random 3 --night --overcast --rows --out x\n")
+
+    def test_a_bag_can_be_of_another_day(self):
+        with tempfile.TemporaryDirectory() as folder:
+            command, programs = install(folder)
+            write_program(programs / "panvo_simulate", "exit 0")
+            write_program(programs / "panvo_run", 'echo "$@"')
+            done = panvo("simulate", "--bag", "--random", "3", "--night", "--season", "snow", "--out", "x", command=command, cwd=folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("--set simulation.night=true --set simulation.season=snow", done.stdout)
+
     def test_what_a_bag_cannot_have_is_named(self):
         done = panvo("simulate", "short", "--bag", "--out", "/nowhere", "--pictures", "3")
         self.assertEqual(done.returncode, 2)

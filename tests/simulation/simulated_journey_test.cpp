@@ -183,5 +183,17 @@ TEST_F(SimulatedJourney, RefusesWhatCannotBeBeforeAnythingIsRendered) {
   }
 }
 
+TEST_F(SimulatedJourney, OfOptionsThatContradictEachOtherIsWrongUsage) {
+  const std::vector<Refusal> refusals{
+      {{"--night", "--hour", "7"}, "--night"},
+  };
+  for (auto [options, named] : refusals) {
+    options.insert(options.end(), {"--route", kShort, "--out", folder_ / "refused"});
+    const auto finished = simulate(options);
+    EXPECT_EQ(finished.status, 2) << finished.output;
+    EXPECT_THAT(finished.output, HasSubstr(named));
+  }
+}
+
 }  // namespace
 }  // namespace panvo::test

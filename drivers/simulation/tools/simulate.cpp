@@ -268,9 +268,11 @@ int main(int argc, char** argv) {
       "Renders a journey through a simulated campus (stereo pairs, panoramas, ground truth) as a EuRoC/ASL data set");
   panvo::simulation::Options options;
   panvo::simulation::describe_options(app, options);
-  CLI11_PARSE(app, argc, argv);
   try {
+    app.parse(argc, argv);
     panvo::simulation::run(options);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::exception& error) {
     std::cerr << "panvo_simulate: " << error.what() << '\n';
     return 1;
