@@ -30,7 +30,7 @@ verb_main() {
   while (($#)); do
     case $1 in
       --bag) as_bag=yes ;;
-      --truth-only | --map | --night | --overcast | --rows) rest+=("$1") ;;
+      --truth-only | --map | --night | --overcast | --rows | --wet) rest+=("$1") ;;
       -*=*) rest+=("${1%%=*}" "${1#*=}") ;;
       -*)
         require_value "$@"
@@ -57,7 +57,7 @@ simulate_bag() {
     case $name in
       out) out=$2 ;;
       route | rig | assets) parameters+=(--set "simulation.$name=$(readlink -m -- "$2")") ;;
-      night | overcast)
+      night | overcast | wet)
         parameters+=(--set "simulation.$name=true")
         shift
         continue

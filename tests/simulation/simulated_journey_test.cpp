@@ -186,6 +186,7 @@ TEST_F(SimulatedJourney, RefusesWhatCannotBeBeforeAnythingIsRendered) {
 TEST_F(SimulatedJourney, OfOptionsThatContradictEachOtherIsWrongUsage) {
   const std::vector<Refusal> refusals{
       {{"--night", "--hour", "7"}, "--night"},
+      {{"--wet", "--season", "snow"}, "season 'snow' contradicts wet"},
   };
   for (auto [options, named] : refusals) {
     options.insert(options.end(), {"--route", kShort, "--out", folder_ / "refused"});

@@ -4,7 +4,7 @@
 namespace panvo::simulated_world {
 
 Campus build_campus(const SiteParameters& parameters, const std::filesystem::path& assets) {
-  auto palette = std::make_shared<const Palette>(parameters.seed, assets, parameters.season);
+  auto palette = std::make_shared<const Palette>(parameters.seed, assets, parameters.season, parameters.wet);
   auto site = std::make_shared<const Site>(parameters, campus_roads(parameters.seed), palette);
   auto scene = std::make_shared<Scene>();
   scene->palette = palette;

@@ -64,6 +64,17 @@ TEST(Palette, HasSnowInWinterOnly) {
   EXPECT_EQ(winter.materials()[winter.find("glass")].snow, 0.0f);
 }
 
+TEST(Palette, HasWaterOnRoadsAndPavementsAfterRainOnly) {
+  const Palette wet(kSeed, {}, Season::kSummer, true);
+  for (const auto& material : palette().materials()) EXPECT_EQ(material.wet, 0.0f) << material.name;
+  for (const char* name : {"asphalt", "asphalt_patch", "slabs", "kerb", "marking"}) {
+    EXPECT_EQ(wet.materials()[wet.find(name)].wet, 1.0f) << name;
+  }
+  for (const char* name : {"grass", "gravel", "brick_red", "concrete_panels", "roof_tiles", "car_paint"}) {
+    EXPECT_EQ(wet.materials()[wet.find(name)].wet, 0.0f) << name;
+  }
+}
+
 TEST(Palette, NamesTheMaterialItDoesNotHave) {
   try {
     palette().find("marble");

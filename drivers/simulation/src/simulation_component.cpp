@@ -33,6 +33,7 @@ struct ComponentParameters {
   std::string season = "summer";
   bool overcast = false;
   bool night = false;
+  bool wet = false;
   double vibration = 1.0;
   double calibration_error = 0.0;
   double start_s = 0.0;
@@ -56,6 +57,7 @@ struct ComponentParameters {
           {"summer", "bare", "snow"});
     field(&P::overcast, "overcast", "", "a closed layer of clouds, no shadows");
     field(&P::night, "night", "", "street lamps and lit windows instead of the sun");
+    field(&P::wet, "wet", "", "after rain: roads and pavements mirror, under clouds; not in snow");
     field(&P::vibration, "vibration", "1", "scale of the vehicle's vibration; 0: none", 0.0, 10.0);
     field(&P::calibration_error, "calibration_error", "1",
           "error of the published stereo calibration; 0: exact, 1: a good one after months of driving", 0.0, 100.0);
@@ -89,6 +91,7 @@ SimulationParameters to_simulation(const ComponentParameters& parameters) {
   simulation.day.season = season_of(parameters.season);
   simulation.day.overcast = parameters.overcast;
   simulation.day.night = parameters.night;
+  simulation.day.wet = parameters.wet;
   simulation.assets = parameters.assets;
   simulation.start_s = parameters.start_s;
   simulation.duration_s = parameters.duration_s;

@@ -18,7 +18,7 @@ Weather::Weather(const Day& day, double duration_s, const Effects& effects, std:
     : day_(day), evening_(static_cast<std::uint32_t>(simulated_world::Random(seed, "evening").bits())) {
   constexpr double kDriftHours = 2.0;
   hours_per_s_ = effects.sun_drift && duration_s > 0.0 ? kDriftHours / duration_s : 0.0;
-  if (!effects.sudden_light || day.overcast || day.night) return;
+  if (!effects.sudden_light || day.overcast || day.wet || day.night) return;
   simulated_world::Random random(seed, "clouds");
   for (double t_s = random.uniform(6.0, 14.0); t_s < duration_s; t_s += random.uniform(12.0, 30.0)) {
     const double length_s = random.uniform(4.0, 12.0);
@@ -40,8 +40,8 @@ double Weather::cloud_cover(double t_s) const {
 }
 
 simulated_world::Light Weather::light(double t_s) const {
-  if (day_.night) return simulated_world::night_light(day_.overcast, evening_);
-  if (day_.overcast) return simulated_world::overcast_light_at(hour(t_s));
+  if (day_.night) return simulated_world::night_light(day_.overcast || day_.wet, evening_);
+  if (day_.overcast || day_.wet) return simulated_world::overcast_light_at(hour(t_s));
   return simulated_world::light_at(hour(t_s), cloud_cover(t_s));
 }
 

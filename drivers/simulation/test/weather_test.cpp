@@ -47,6 +47,22 @@ TEST(Weather, OfAnOvercastDayHasNoSun) {
   EXPECT_TRUE(weather.light(100.0).overcast);
 }
 
+TEST(Weather, OfAWetDayIsOvercastAlsoAtNight) {
+  Effects effects;
+  effects.sudden_light = true;
+  const Weather weather({.wet = true}, 600.0, effects, 3);
+  EXPECT_TRUE(weather.clouds().empty());
+  EXPECT_TRUE(weather.light(100.0).overcast);
+  EXPECT_TRUE(Weather({.night = true, .wet = true}, 600.0, effects, 3).light(100.0).overcast);
+  EXPECT_FALSE(Weather({.night = true}, 600.0, effects, 3).light(100.0).overcast);
+}
+
+TEST(Day, IsWetOrInSnow) {
+  EXPECT_NO_THROW(check({.season = simulated_world::Season::kBare, .wet = true}));
+  EXPECT_NO_THROW(check({.season = simulated_world::Season::kSnow}));
+  EXPECT_THROW(check({.season = simulated_world::Season::kSnow, .wet = true}), std::invalid_argument);
+}
+
 TEST(Weather, AtNightLampsReplaceTheSun) {
   Effects effects;
   effects.sudden_light = true;

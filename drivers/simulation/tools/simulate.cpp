@@ -93,6 +93,7 @@ void describe_options(CLI::App& app, Options& options) {
       ->check(CLI::IsMember(kSeasonNames))
       ->capture_default_str();
   app.add_flag("--overcast", s.day.overcast, "a closed layer of clouds, no shadows");
+  app.add_flag("--wet", s.day.wet, "after rain: roads and pavements mirror, under clouds; not in snow");
   app.add_option("--day", s.day.seed,
                  "another day on the same campus: so many days later, with other vibration, noise, traffic and clouds")
       ->check(CLI::Range(1, 10000));
@@ -131,6 +132,11 @@ void complete(Options& options) {
   auto& s = options.simulation;
   s.effects = effects_of(options.effects);
   s.day.season = season_of(options.season);
+  try {
+    check(s.day);
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError(error.what());
+  }
   constexpr std::int64_t kDay_ns = 86'400'000'000'000;
   if (s.day.seed) s.start_stamp_ns += static_cast<std::int64_t>(*s.day.seed) * kDay_ns;
   s.stereo = options.cameras != "panorama";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "packet_tracer.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -30,6 +31,15 @@ void set_lanes(std::uint32_t lanes, std::int32_t* valid) {
   for (int i = 0; i < kPacket; ++i) valid[i] = (lanes >> i & 1u) != 0 ? -1 : 0;
 }
 
+/// The lanes that hit something.
+std::uint32_t hits_of(const TracedPacket& packet) {
+  std::uint32_t hit = 0;
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if (packet.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) hit |= 1u << i;
+  }
+  return hit;
+}
+
 }  // namespace
 
 PacketTracer::PacketTracer(const TracedScene& scene, const Sky& sky, const Light& light, const ShadingTables& tables,
@@ -44,7 +54,6 @@ PacketTracer::PacketTracer(const TracedScene& scene, const Sky& sky, const Light
 
 void PacketTracer::intersect(const SampleRays& samples, TracedPacket& packet) const {
   auto& rays = packet.rays.ray;
-  auto& hits = packet.rays.hit;
   for (std::size_t i = 0; i < kPacket; ++i) {
     const auto& pose = moments_[static_cast<std::size_t>(samples.moments[i])];
     const auto& m = pose.world_from_camera;
@@ -61,8 +70,18 @@ void PacketTracer::intersect(const SampleRays& samples, TracedPacket& packet) co
       packet.across[axis][i] = is_known ? packet.across[axis][0] : turned_ray(pose, axis, samples.across[i]);
       packet.down[axis][i] = is_known ? packet.down[axis][0] : turned_ray(pose, axis, samples.down[i]);
     }
+  }
+  packet.motion_share = samples.share;
+  const auto first_lane = static_cast<std::size_t>(std::countr_zero(samples.lanes));
+  cast(packet, samples.lanes, samples.across[first_lane].norm());
+}
+
+void PacketTracer::cast(TracedPacket& packet, std::uint32_t lanes, float spread) const {
+  auto& rays = packet.rays.ray;
+  auto& hits = packet.rays.hit;
+  for (std::size_t i = 0; i < kPacket; ++i) {
     rays.tnear[i] = 0.0f;
-    rays.tfar[i] = (samples.lanes >> i & 1u) != 0 ? std::numeric_limits<float>::infinity() : kNotTraced;
+    rays.tfar[i] = (lanes >> i & 1u) != 0 ? std::numeric_limits<float>::infinity() : kNotTraced;
     rays.mask[i] = visibility_;
     rays.flags[i] = 0;
     rays.id[i] = static_cast<unsigned>(i);
@@ -71,11 +90,9 @@ void PacketTracer::intersect(const SampleRays& samples, TracedPacket& packet) co
     hits.primID[i] = 0;
     packet.is_moving[i] = 0;
   }
-  packet.motion_share = samples.share;
   alignas(64) std::int32_t valid[kPacket];
-  set_lanes(samples.lanes, valid);
-  const auto first_lane = static_cast<std::size_t>(std::countr_zero(samples.lanes));
-  auto context = trace_context(samples.across[first_lane].norm(), RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+  set_lanes(lanes, valid);
+  auto context = trace_context(spread, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
   rtcIntersect16(valid, scene_.standing(), &context.embree, &packet.rays);
   if (scene_.moving() == nullptr) return;
   alignas(64) float before[kPacket];
@@ -89,39 +106,42 @@ void PacketTracer::meet(const SampleRays& samples, TracedPacket& packet, Rendere
   statistics.primary_rays += static_cast<std::uint64_t>(std::popcount(samples.lanes));
 }
 
+std::uint32_t PacketTracer::light_up(const SampleRays& samples, const TracedPacket& packet, ShadedPacket& shaded,
+                                     Renderer::Statistics& statistics) const {
+  shade_(tables_, packet, shaded);
+  alignas(64) std::int32_t valid[kPacket];
+  set_lanes(samples.lanes, valid);
+  std::uint32_t in_light = 0, shadow_lanes = 0;
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if (((samples.in_sun | samples.in_shadow) >> i & 1u) != 0) valid[i] = 0;
+    if ((samples.in_shadow >> i & 1u) != 0) shaded.wants_shadow[i] = 0;
+    valid[i] &= shaded.wants_shadow[i];
+    if (shaded.wants_shadow[i] != 0) in_light |= 1u << i;
+    if (valid[i] != 0) shadow_lanes |= 1u << i;
+  }
+  if (shadow_lanes == 0) return in_light;
+  for (unsigned i = 0; i < kPacket; ++i)
+    if (valid[i] == 0) shaded.shadow.tfar[i] = kNotTraced;
+  statistics.shadow_rays += static_cast<std::uint64_t>(std::popcount(shadow_lanes));
+  auto context = trace_context(kSunSpread, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+  for (unsigned i = 0; i < kPacket; ++i) shaded.shadow.id[i] = i;
+  rtcOccluded16(valid, scene_.standing(), &context.embree, &shaded.shadow);
+  if (scene_.moving() != nullptr) {
+    for (int i = 0; i < kPacket; ++i) valid[i] &= shaded.shadow.tfar[i] >= 0.0f ? -1 : 0;
+    rtcOccluded16(valid, scene_.moving(), &context.embree, &shaded.shadow);
+  }
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if ((shadow_lanes >> i & 1u) != 0 && shaded.shadow.tfar[i] < 0.0f) in_light &= ~(1u << i);
+  }
+  return in_light;
+}
+
 void PacketTracer::shade(const SampleRays& samples, const TracedPacket& packet, SampleResults& results,
                          Renderer::Statistics& statistics) const {
   const auto& rays = packet.rays.ray;
-  std::uint32_t hit = 0;
-  for (unsigned i = 0; i < kPacket; ++i) {
-    if (packet.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) hit |= 1u << i;
-  }
-  hit &= samples.lanes;
+  const std::uint32_t hit = hits_of(packet) & samples.lanes;
   ShadedPacket shaded;
-  std::uint32_t shadow_lanes = 0;
-  if (hit != 0) {
-    shade_(tables_, packet, shaded);
-    alignas(64) std::int32_t valid[kPacket];
-    set_lanes(samples.lanes, valid);
-    for (unsigned i = 0; i < kPacket; ++i) {
-      if (((samples.in_sun | samples.in_shadow) >> i & 1u) != 0) valid[i] = 0;
-      if ((samples.in_shadow >> i & 1u) != 0) shaded.wants_shadow[i] = 0;
-      valid[i] &= shaded.wants_shadow[i];
-      if (valid[i] != 0) shadow_lanes |= 1u << i;
-    }
-    if (shadow_lanes != 0) {
-      for (unsigned i = 0; i < kPacket; ++i)
-        if (valid[i] == 0) shaded.shadow.tfar[i] = kNotTraced;
-      statistics.shadow_rays += static_cast<std::uint64_t>(std::popcount(shadow_lanes));
-      auto context = trace_context(kSunSpread, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
-      for (unsigned i = 0; i < kPacket; ++i) shaded.shadow.id[i] = i;
-      rtcOccluded16(valid, scene_.standing(), &context.embree, &shaded.shadow);
-      if (scene_.moving() != nullptr) {
-        for (int i = 0; i < kPacket; ++i) valid[i] &= shaded.shadow.tfar[i] >= 0.0f ? -1 : 0;
-        rtcOccluded16(valid, scene_.moving(), &context.embree, &shaded.shadow);
-      }
-    }
-  }
+  const std::uint32_t in_light = hit != 0 ? light_up(samples, packet, shaded, statistics) : 0;
   if (hit != samples.lanes) see_sky(samples, rays, hit, results);
   for (unsigned i = 0; i < kPacket; ++i) {
     if ((samples.lanes >> i & 1u) == 0) continue;
@@ -132,13 +152,52 @@ void PacketTracer::shade(const SampleRays& samples, const TracedPacket& packet, 
       results.normal[i] = 0;
       continue;
     }
-    const bool is_dark = (shadow_lanes >> i & 1u) != 0 && shaded.shadow.tfar[i] < 0.0f;
-    const bool is_sunny = shaded.wants_shadow[i] != 0 && !is_dark;
+    const bool is_sunny = (in_light >> i & 1u) != 0;
     const float sun = is_sunny ? 1.0f : 0.0f;
     for (std::size_t c = 0; c < 3; ++c) radiance[c] = shaded.base[c][i] + sun * shaded.sun[c][i];
     results.distance[i] = rays.tfar[i];
     results.key[i] = shaded.key[i];
     results.normal[i] = (shaded.normal[i] & 0x7fffffffu) | (is_sunny ? 0x80000000u : 0u);
+  }
+  if (tables_.has_water && hit != 0) add_reflections(samples, hit, shaded, results, statistics);
+}
+
+void PacketTracer::add_reflections(const SampleRays& samples, std::uint32_t hit, ShadedPacket& shaded,
+                                   SampleResults& results, Renderer::Statistics& statistics) const {
+  SampleRays mirrored = samples;
+  mirrored.lanes = mirrored.in_sun = mirrored.in_shadow = 0;
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if ((hit >> i & 1u) != 0 && shaded.of_puddle[i] + shaded.of_film[i] > 0.0f) mirrored.lanes |= 1u << i;
+  }
+  if (mirrored.lanes == 0) return;
+  auto& packet = shaded.mirrored;
+  const auto first_lane = static_cast<std::size_t>(std::countr_zero(mirrored.lanes));
+  packet.motion_share = samples.share;
+  cast(packet, mirrored.lanes, samples.across[first_lane].norm());
+  statistics.primary_rays += static_cast<std::uint64_t>(std::popcount(mirrored.lanes));
+
+  const std::uint32_t seen = hits_of(packet) & mirrored.lanes;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    if ((seen >> i & 1u) == 0) continue;
+    const float further = 1.0f + results.distance[i] / packet.rays.ray.tfar[i];  // the ray has widened before
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      packet.across[axis][i] *= further;
+      packet.down[axis][i] *= further;
+    }
+  }
+  ShadedPacket reflected;
+  const std::uint32_t in_light = seen != 0 ? light_up(mirrored, packet, reflected, statistics) : 0;
+  SampleResults sky;
+  if (seen != mirrored.lanes) see_sky(mirrored, packet.rays.ray, seen, sky);
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if ((mirrored.lanes >> i & 1u) == 0) continue;
+    const bool is_hit = (seen >> i & 1u) != 0;
+    const float sun = (in_light >> i & 1u) != 0 ? 1.0f : 0.0f;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float radiance = is_hit ? reflected.base[c][i] + sun * reflected.sun[c][i] : sky.radiance[i][c];
+      results.radiance[i][c] +=
+          shaded.of_puddle[i] * radiance + shaded.of_film[i] * std::min(radiance, tables_.film_limit);
+    }
   }
 }
 

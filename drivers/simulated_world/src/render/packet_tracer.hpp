@@ -73,6 +73,14 @@ class PacketTracer {
 
  private:
   void intersect(const SampleRays& samples, TracedPacket& packet) const;
+  /// Finds what the rays hit, given their origins, directions and times. `spread`: as in TraceContext.
+  void cast(TracedPacket& packet, std::uint32_t lanes, float spread) const;
+  /// Shades what was hit and traces shadow rays; returns the lanes in direct light.
+  std::uint32_t light_up(const SampleRays& samples, const TracedPacket& packet, ShadedPacket& shaded,
+                         Renderer::Statistics& statistics) const;
+  /// Adds what wet ground in the lanes of `hit` mirrors.
+  void add_reflections(const SampleRays& samples, std::uint32_t hit, ShadedPacket& shaded, SampleResults& results,
+                       Renderer::Statistics& statistics) const;
   void see_sky(const SampleRays& samples, const RTCRay16& rays, std::uint32_t hit, SampleResults& results) const;
 
   const TracedScene& scene_;

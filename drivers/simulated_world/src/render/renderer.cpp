@@ -156,6 +156,7 @@ cv::Mat Renderer::render(const CameraRays& rays, const Shot& shot, const Light& 
   tables.lamps = state.lamps.data();
   tables.lamp_count = light.lamps ? static_cast<std::uint32_t>(state.lamps.size()) : 0;
   tables.evening = light.evening;
+  tables.film_limit = light.lamps ? 0.03f : std::numeric_limits<float>::infinity();
   tables.texture_taps = std::clamp(quality.texture_taps, 1, 16);
   const Eigen::Vector3d moved =
       shot.world_from_camera_closed.translation() - shot.world_from_camera_opened.translation();

@@ -20,6 +20,8 @@ namespace baseline {
 //
 #include "packet_surfaces.inl"
 //
+#include "packet_water.inl"
+//
 #include "shade_packet.inl"
 }  // namespace baseline
 

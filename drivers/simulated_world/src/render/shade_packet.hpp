@@ -33,7 +33,7 @@ struct MaterialRecord {
   std::uint32_t flags = 0;
   float snow = 0.0f;
   float shine = 0.0f;  ///< radiance with the lamps on
-  std::uint32_t padding = 0;
+  float wet = 0.0f;
 };
 static_assert(sizeof(MaterialRecord) == 16 * sizeof(std::uint32_t));
 inline constexpr std::uint32_t kHasOverlay = 1, kOverlayIsScattered = 2, kTakesObjectTint = 4, kHasHoles = 8,
@@ -58,6 +58,8 @@ struct ShadingTables {
   std::array<float, 3> to_sun{}, sun{}, sky{}, ground{}, haze{};
   float haze_per_m = 0.0f;
   bool has_snow = false;
+  bool has_water = false;
+  float film_limit = 0.0f;  ///< radiance above which shading spreads what a film of water mirrors, not its rays
   const LampRecord* lamps = nullptr;
   std::uint32_t lamp_count = 0;            ///< 0: the lamps are off
   std::uint32_t evening = 0;               ///< decides which rooms are lit
@@ -79,6 +81,7 @@ struct alignas(64) TracedPacket {
 void copy_lane(const TracedPacket& from, std::size_t lane, TracedPacket& to, std::size_t to_lane);
 
 /// Radiance along sixteen rays that hit something: base + (sun, unless in shadow). At night `sun` is the brightest lamp.
+/// On wet ground, what is seen along the rays of `mirrored` comes on top.
 struct alignas(64) ShadedPacket {
   float base[3][kPacket];
   float sun[3][kPacket];
@@ -86,6 +89,9 @@ struct alignas(64) ShadedPacket {
   std::int32_t wants_shadow[kPacket];  ///< -1: may be sunlit, trace a shadow ray
   std::uint32_t key[kPacket];          ///< object and material: differs across edges
   std::uint32_t normal[kPacket];       ///< x, y, z as signed bytes from the low end, then material flags
+  float of_puddle[kPacket];            ///< reflectance, as of_film and mirrored set on wet campuses only
+  float of_film[kPacket];              ///< reflectance for radiances up to ShadingTables::film_limit
+  TracedPacket mirrored;               ///< origins, directions, times and changes from pixel to pixel of the rays
 };
 
 /// Shades the lanes that hit something; results of other lanes are undefined.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shades sixteen hits. Included once per instruction set, after packet_surfaces.inl; see packet_math.inl.
+// Shades sixteen hits. Included once per instruction set, after packet_water.inl; see packet_math.inl.
 
 PANVO_INLINE Vector3 seen_in_mirror(const ShadingTables& tables, const Vector3& direction) {
   const Float sum = 1.0f / (absolute(direction.x) + absolute(direction.y) + absolute(direction.z));
@@ -123,14 +123,16 @@ struct DirectLight {
   Vector3 towards, colour;
   Float reach;          ///< of the shadow ray, m
   Float flat_facing;    ///< cosine of its angle from the triangle's normal
+  Float glint;          ///< what wet ground reflects of it, relative to a white surface perpendicular to it
   Vector3 other_lamps;  ///< radiance of a white surface by all others, without shadows
+  Vector3 other_glints;
 };
 
 PANVO_INLINE DirectLight sunlight(const ShadingTables& tables, const Surface& surface) {
   const Vector3 towards = all(tables.to_sun);
   const Float far = all(std::numeric_limits<float>::infinity());
   const Vector3 no_lamps{all(0.0f), all(0.0f), all(0.0f)};
-  return {towards, all(tables.sun), far, dot(surface.flat, towards), no_lamps};
+  return {towards, all(tables.sun), far, dot(surface.flat, towards), all(0.0f), no_lamps, no_lamps};
 }
 
 /// Sodium light is orange, LEDs are white: between them.
@@ -146,10 +148,11 @@ PANVO_INLINE Float light_of(const LampRecord& lamp, const Vector3& way, const Fl
   return lamp.intensity * (lamp.sideways + (1.0f - lamp.sideways) * downwards) * fade * (1.0f / square);
 }
 
-PANVO_INLINE DirectLight lamplight(const ShadingTables& tables, const Hit& hit, const Surface& surface) {
+PANVO_INLINE DirectLight lamplight(const ShadingTables& tables, const Hit& hit, const Surface& surface,
+                                   const Water& water) {
   constexpr float kHousing_m = 0.7f;  // a lamp's own head and post cast no shadow
   DirectLight light = sunlight(tables, surface);
-  Float brightest = all(0.0f), sum = all(0.0f);
+  Float brightest = all(0.0f), sum = all(0.0f), glints = all(0.0f), own_glint = all(0.0f);
   for (std::uint32_t i = 0; i < tables.lamp_count; ++i) {
     const LampRecord& lamp = tables.lamps[i];
     const Vector3 way{lamp.x - hit.point.x, lamp.y - hit.point.y, lamp.z - hit.point.z};
@@ -164,9 +167,15 @@ PANVO_INLINE DirectLight lamplight(const ShadingTables& tables, const Hit& hit, 
     light.towards = choose(is_brighter, towards, light.towards);
     light.colour = choose(is_brighter, lamp_colour(received), light.colour);
     light.reach = choose(is_brighter, maximum(root(square) - kHousing_m, all(0.01f)), light.reach);
+    if (!tables.has_water) continue;
+    const Float glint = glint_of(water, surface.normal, hit.direction, towards);
+    glints = glints + glint * received;
+    own_glint = choose(is_brighter, glint * received, own_glint);
+    light.glint = choose(is_brighter, glint, light.glint);
   }
   light.flat_facing = dot(surface.flat, light.towards);
   light.other_lamps = lamp_colour(sum - brightest);
+  light.other_glints = lamp_colour(maximum(glints - own_glint, all(0.0f)));
   return light;
 }
 
@@ -189,10 +198,11 @@ PANVO_INLINE Vector3 shine_of(const ShadingTables& tables, const Hit& hit, const
 struct Radiance {
   Vector3 base, sun;
   Float direct;  ///< share of the direct light, unless in shadow
+  Reflectance mirror;  ///< of wet ground, behind haze
 };
 
 PANVO_INLINE Radiance radiance_of(const ShadingTables& tables, const Hit& hit, const Surface& surface, const Look& look,
-                                  const Vector3& albedo, const DirectLight& light) {
+                                  const Water& water, const Vector3& albedo, const DirectLight& light) {
   const auto* numbers = (const float*)tables.materials;
   const Vector3& normal = surface.normal;
   const Float upwards = 0.5f + 0.5f * normal.z;
@@ -217,9 +227,20 @@ PANVO_INLINE Radiance radiance_of(const ShadingTables& tables, const Hit& hit, c
     radiance.sun = (1.0f - mirrored) * radiance.sun;
   }
   if (tables.lamp_count > 0) radiance.base = radiance.base + shine_of(tables, hit, look);
+  radiance.mirror = {all(0.0f), all(0.0f), all(0.0f)};
+  if (tables.has_water) {
+    const Float cosine = clamped(-dot(normal, hit.direction), 0.0f, 1.0f);
+    radiance.mirror = reflectance_of(water, cosine);
+    const Float left = 1.0f - radiance.mirror.of_puddle - radiance.mirror.of_film - radiance.mirror.blurred;
+    const Vector3 seen = seen_in_mirror(tables, hit.direction + (2.0f * cosine) * normal);
+    radiance.base = left * radiance.base + (radiance.mirror.blurred * look.open) * seen + light.other_glints;
+    radiance.sun = left * radiance.sun + light.glint * light.colour;
+  }
   const Float clear = rough_exp2(maximum(hit.distance * (-1.442695f * tables.haze_per_m), all(-100.0f)));
   radiance.base = clear * radiance.base + (1.0f - clear) * all(tables.haze);
   radiance.sun = clear * radiance.sun;
+  radiance.mirror.of_puddle = clear * radiance.mirror.of_puddle;
+  radiance.mirror.of_film = clear * radiance.mirror.of_film;
   return radiance;
 }
 
@@ -247,8 +268,13 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
   const Footprint footprint = footprint_of(tables, traced, hit, surface);
   Vector3 albedo = albedo_of(tables, hit, look, surface.object_tint, footprint);
   if (tables.has_snow) albedo = under_snow(tables, look, surface.normal, albedo);
-  const DirectLight light = tables.lamp_count > 0 ? lamplight(tables, hit, surface) : sunlight(tables, surface);
-  const Radiance radiance = radiance_of(tables, hit, surface, look, albedo, light);
+  Water water{all(0.0f), all(0.0f)};
+  if (tables.has_water) {
+    water = water_on(tables, hit, surface.normal, look.material_words);
+    albedo = under_water(water, albedo);
+  }
+  const DirectLight light = tables.lamp_count > 0 ? lamplight(tables, hit, surface, water) : sunlight(tables, surface);
+  const Radiance radiance = radiance_of(tables, hit, surface, look, water, albedo, light);
 
   store3(shaded.base, radiance.base);
   store3(shaded.sun, radiance.sun);
@@ -259,4 +285,5 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
   const auto byte = [](const Float& value) PANVO_ALWAYS { return (Word)truncated(value * 127.0f) & 0xffu; };
   const Vector3& normal = surface.normal;
   store(shaded.normal, byte(normal.x) | byte(normal.y) << 8 | byte(normal.z) << 16 | look.flags << 24);
+  if (tables.has_water) store_mirror_rays(traced, hit, surface, radiance.mirror, shaded);
 }

@@ -21,6 +21,8 @@ namespace panvo::simulated_world::avx2 {
 //
 #include "packet_surfaces.inl"
 //
+#include "packet_water.inl"
+//
 #include "shade_packet.inl"
 }  // namespace panvo::simulated_world::avx2
 #pragma GCC pop_options

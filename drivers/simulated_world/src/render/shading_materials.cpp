@@ -81,6 +81,8 @@ ShadingMaterials::ShadingMaterials(const Palette& palette) {
     record.translucency = material.translucency;
     record.snow = material.snow;
     has_snow_ = has_snow_ || material.snow > 0.0f;
+    record.wet = material.wet;
+    has_water_ = has_water_ || material.wet > 0.0f;
     if (material.overlay) {
       record.overlay = number_of(*material.overlay);
       record.overlay_periods_per_m = 1.0f / material.overlay_period_m;
@@ -127,6 +129,7 @@ void ShadingMaterials::fill(ShadingTables& tables) const {
   tables.textures = textures_.data();
   tables.texels = texels_.data();
   tables.has_snow = has_snow_;
+  tables.has_water = has_water_;
 }
 
 bool ShadingMaterials::is_hole(std::uint32_t material, const Eigen::Vector2f& uv, float width_m) const {

@@ -29,7 +29,7 @@ class ShadingMaterials {
   std::vector<MaterialRecord> materials_;
   std::vector<TextureRecord> textures_;
   std::vector<std::uint32_t> texels_;  // of all textures and levels: red in the low byte
-  bool has_snow_ = false;
+  bool has_snow_ = false, has_water_ = false;
 };
 
 /// The sky as reflected by glossy objects: a coarse octahedral map, recomputed when the light changes.

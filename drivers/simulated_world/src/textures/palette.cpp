@@ -48,6 +48,12 @@ float snow_on(const std::string& material) {
   return material.starts_with("asphalt") || material.starts_with("cobbles") ? 0.35f : 1.0f;
 }
 
+/// Coverage by water of what faces upwards: it runs off roads and pavements slowly, and seeps away elsewhere.
+float wetness_of(const std::string& material) {
+  constexpr std::array<std::string_view, 6> kPaved{"slabs", "cobbles", "concrete", "kerb", "marking", "manhole"};
+  return material.starts_with("asphalt") || std::ranges::find(kPaved, material) != kPaved.end() ? 1.0f : 0.0f;
+}
+
 /// The nearest power of two, at most 2048.
 int nearest_power_of_two(int size) {
   const auto floor = std::bit_floor(static_cast<unsigned>(std::clamp(size, 1, 2048)));
@@ -100,7 +106,7 @@ std::map<std::string, cv::Mat> read_photographs(const std::filesystem::path& ass
 
 }  // namespace
 
-Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season) {
+Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season, bool wet) {
   const std::vector<Recipe> recipes = material_recipes(season);
   const auto photographs = read_photographs(assets, recipes);
   constexpr std::array kWears{Wear::kNone, Wear::kRoad, Wear::kNewRoad, Wear::kGround, Wear::kWall, Wear::kPlaster};
@@ -126,6 +132,7 @@ Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets, Season
     material.translucency = recipe.translucency;
     material.has_holes = recipe.has_holes;
     if (season == Season::kSnow) material.snow = snow_on(recipe.name);
+    if (wet) material.wet = wetness_of(recipe.name);
   };
   std::vector<std::exception_ptr> failures(jobs);
   cv::parallel_for_(

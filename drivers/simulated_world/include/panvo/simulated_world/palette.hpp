@@ -33,6 +33,7 @@ struct Material {
   float translucency = 0.0f;               ///< fraction of sunlight transmitted from behind: leaves
   bool has_holes = false;                  ///< alpha < 0.5 is a hole
   float snow = 0.0f;                       ///< 0..1: coverage by snow of what faces upwards
+  float wet = 0.0f;                        ///< 0..1: coverage by water of what faces upwards
 };
 
 /// All materials of the campus. Textures are generated from the seed; photographs in the folder `assets` (NAME.jpg or
@@ -40,7 +41,8 @@ struct Material {
 /// cannot be read or has no material of its name.
 class Palette {
  public:
-  Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season = Season::kSummer);
+  Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season = Season::kSummer,
+          bool wet = false);
 
   const std::vector<Material>& materials() const { return materials_; }
 

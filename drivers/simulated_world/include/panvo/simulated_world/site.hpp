@@ -19,6 +19,7 @@ struct SiteParameters {
   bool weak_texture = false;  ///< applied to the junctions marked in the network
   bool rows = false;          ///< all buildings of one use are alike in every detail, at equal distances
   Season season = Season::kSummer;
+  bool wet = false;  ///< after rain: water on roads and pavements
 };
 
 class KerbField;

@@ -16,6 +16,7 @@ struct Day {
   simulated_world::Season season = simulated_world::Season::kSummer;
   bool overcast = false;
   bool night = false;                   ///< street lamps instead of the sun; `hour` has no meaning
+  bool wet = false;                     ///< after rain, under clouds: roads and pavements mirror; not in snow
   double left_m = 0.0;                  ///< the vehicle keeps that far to the left of its lane's middle
   std::optional<std::uint64_t> seed{};  ///< of vibration, noise, traffic and clouds; nullopt: that of the campus
 };
@@ -25,5 +26,8 @@ inline const std::vector<std::string> kSeasonNames = {"summer", "bare", "snow"};
 
 /// The season of that name. Throws std::invalid_argument, with the valid names, for another one.
 simulated_world::Season season_of(const std::string& name);
+
+/// Throws std::invalid_argument if the day contradicts itself.
+void check(const Day& day);
 
 }  // namespace panvo::simulation

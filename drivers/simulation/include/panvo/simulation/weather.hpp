@@ -13,7 +13,7 @@ namespace panvo::simulation {
 /// The light during a journey: hour of the day, and clouds in front of the sun.
 class Weather {
  public:
-  /// Clouds come and go with sudden_light, neither on an overcast day nor at night.
+  /// Clouds come and go with sudden_light, neither on an overcast or wet day nor at night.
   Weather(const Day& day, double duration_s, const Effects& effects, std::uint64_t seed);
 
   simulated_world::Light light(double t_s) const;
