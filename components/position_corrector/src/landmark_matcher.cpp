@@ -143,7 +143,7 @@ void LandmarkMatcher::verify(const PanoramaFrame& frame, const landmarks::Landma
     match.heading_rad = found.pose->heading_rad;
     match.pose = std::move(found.pose);
     const double offset_m = match.pose->landmark_from_panorama.translation().norm();
-    lock_ = Lock{match.landmark_id, match.heading_rad,   match,          match.small_distance,
+    lock_ = Lock{match.landmark_id, match.heading_rad, match,          match.small_distance,
                  offset_m,          frame.travelled_m, frame.stamp_ns, {}};
     lock_->pass = {{{frame.travelled_m, match.small_distance}}, std::move(keypoints)};
     return;

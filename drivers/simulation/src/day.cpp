@@ -17,7 +17,7 @@ simulated_world::Season season_of(const std::string& name) {
   return static_cast<simulated_world::Season>(found - kSeasonNames.begin());
 }
 
-void check(const Day& day) {
+void check_day(const Day& day) {
   if (day.wet && day.season == simulated_world::Season::kSnow) {
     throw std::invalid_argument("season 'snow' contradicts wet: choose one of them");
   }

@@ -69,7 +69,7 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
   // Everything that may be rejected comes before building the campus, which takes time.
   const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, day, rows, assets, start_s, duration_s,
                stereo, panorama, stamp, quality] = parameters_;
-  check(day);
+  check_day(day);
   const std::uint64_t own = day.seed.value_or(seed);
   const auto path = drive(simulated_world::campus_roads(seed), route, day.left_m);
   motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness), motion, own);
@@ -95,9 +95,13 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
       add_camera(heads_, rays_of(rig.panorama, head), head.base_from_head, rig.panorama.sensor, head.frame_id);
     }
   }
-  campus_ = simulated_world::build_campus(
-      {.seed = seed, .hilliness = hilliness, .weak_texture = effects.weak_texture, .rows = rows, .season = day.season, .wet = day.wet},
-      assets);
+  campus_ = simulated_world::build_campus({.seed = seed,
+                                           .hilliness = hilliness,
+                                           .weak_texture = effects.weak_texture,
+                                           .rows = rows,
+                                           .season = day.season,
+                                           .wet = day.wet},
+                                          assets);
   if (effects.movers) traffic_.emplace(*campus_.site, *motion_, campus_.movers, own);
   renderer_ = std::make_unique<simulated_world::Renderer>(campus_.scene);
 }

@@ -58,9 +58,9 @@ TEST(Weather, OfAWetDayIsOvercastAlsoAtNight) {
 }
 
 TEST(Day, IsWetOrInSnow) {
-  EXPECT_NO_THROW(check({.season = simulated_world::Season::kBare, .wet = true}));
-  EXPECT_NO_THROW(check({.season = simulated_world::Season::kSnow}));
-  EXPECT_THROW(check({.season = simulated_world::Season::kSnow, .wet = true}), std::invalid_argument);
+  EXPECT_NO_THROW(check_day({.season = simulated_world::Season::kBare, .wet = true}));
+  EXPECT_NO_THROW(check_day({.season = simulated_world::Season::kSnow}));
+  EXPECT_THROW(check_day({.season = simulated_world::Season::kSnow, .wet = true}), std::invalid_argument);
 }
 
 TEST(Weather, AtNightLampsReplaceTheSun) {

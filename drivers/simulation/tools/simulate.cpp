@@ -133,7 +133,7 @@ void complete(Options& options) {
   s.effects = effects_of(options.effects);
   s.day.season = season_of(options.season);
   try {
-    check(s.day);
+    check_day(s.day);
   } catch (const std::invalid_argument& error) {
     throw CLI::ValidationError(error.what());
   }

@@ -135,7 +135,7 @@ class LandmarkMatcher {
   struct Lock {
     std::uint32_t landmark_id = 0;
     double heading_rad = 0.0;
-    LandmarkMatch best;  ///< among those with a pose, the one with the smallest small-scale distance
+    LandmarkMatch best;         ///< among those with a pose, the one with the smallest small-scale distance
     double min_distance = 1.0;  ///< smallest distance of all panoramas, with or without a pose
     double nearest_m = std::numeric_limits<double>::infinity();  ///< smallest offset of all poses
     double min_at_m = 0.0;                                       ///< where and when either was found

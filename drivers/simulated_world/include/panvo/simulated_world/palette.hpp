@@ -41,8 +41,7 @@ struct Material {
 /// cannot be read or has no material of its name.
 class Palette {
  public:
-  Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season = Season::kSummer,
-          bool wet = false);
+  Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season = Season::kSummer, bool wet = false);
 
   const std::vector<Material>& materials() const { return materials_; }
 

@@ -28,6 +28,6 @@ inline const std::vector<std::string> kSeasonNames = {"summer", "bare", "snow"};
 simulated_world::Season season_of(const std::string& name);
 
 /// Throws std::invalid_argument if the day contradicts itself.
-void check(const Day& day);
+void check_day(const Day& day);
 
 }  // namespace panvo::simulation
