@@ -3,6 +3,7 @@
 # panvo bench accuracy: replays simulated drives of several seeds through the whole system and prints their errors.
 
 source "$PANVO_SCRIPTS/lib/simulated.sh"
+source "$PANVO_SCRIPTS/lib/bench_page.sh"
 
 accuracy_usage() {
   cat <<'EOT'
@@ -45,11 +46,8 @@ bench_accuracy() {
     esac
     shift
   done
-  [[ $list =~ ^[0-9]+(,[0-9]+)*$ ]] || fail "--seeds '$list': give numbers, separated by commas" 2
-  IFS=, read -r -a seeds <<<"$list"
-  ensure_built panvo_programs
-  use_plugins
-  mkdir -p -- "$(dirname -- "$out")" || fail "cannot create the folder of '$out'; name another file with --out"
+  split_seeds "$list"
+  prepare_page "$out"
   for seed in "${seeds[@]}"; do
     aged+=("$(simulated_dataset "$route" "$seed" none)")
     [[ -n $quick ]] || disturbed+=("$(simulated_dataset "$route" "$seed" all)")

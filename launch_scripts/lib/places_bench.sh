@@ -3,6 +3,7 @@
 # panvo bench places: recognises the places of a simulated drive on drives of other days and on other campuses.
 
 source "$PANVO_SCRIPTS/lib/simulated.sh"
+source "$PANVO_SCRIPTS/lib/bench_page.sh"
 
 places_usage() {
   cat <<'EOT'
@@ -66,15 +67,12 @@ bench_places() {
     esac
     shift
   done
-  [[ $list =~ ^[0-9]+(,[0-9]+)*$ ]] || fail "--seeds '$list': give numbers, separated by commas" 2
-  IFS=, read -r -a seeds <<<"$list"
+  split_seeds "$list"
   IFS=, read -r -a names <<<"$only"
   for name in "${names[@]}"; do
     [[ $name == @(hour|night|rain|bare|snow|rows) ]] || fail "--only '$name': choose from hour, night, rain, bare, snow, rows" 2
   done
-  ensure_built panvo_programs
-  use_plugins
-  mkdir -p -- "$(dirname -- "$out")" || fail "cannot create the folder of '$out'; name another file with --out"
+  prepare_page "$out"
   for seed in "${seeds[@]}"; do
     for name in "${names[@]}"; do
       library=$(place_drive "$route" "$seed" "$([[ $name == rows ]] && echo rows_library || echo noon)")

@@ -14,7 +14,7 @@ import statistics
 import subprocess
 import sys
 
-from report import Failed, figure, inside, machine, run, table
+from report import Failed, add_page_arguments, figure, inside, machine, run, table, write_page
 
 SYSTEMS = pathlib.Path(__file__).resolve().parent.parent.parent / "config" / "systems"
 # Quantiles of Student's distribution for a two-sided interval of 95 %, by degrees of freedom; more than ten: that of ten, a little too wide.
@@ -151,9 +151,7 @@ def main():
     parser = argparse.ArgumentParser(prog="panvo bench accuracy", description=__doc__.splitlines()[0])
     parser.add_argument("--drives", nargs="+", action="append", required=True, metavar=("KIND", "NAME"),
                         help=f"kind ({', '.join(VARIANTS)}), name of the group, and folders of its drives")
-    for name, text in (("out", "the page to write"), ("work", "folder for the runs"), ("programs", argparse.SUPPRESS)):
-        parser.add_argument(f"--{name}", type=pathlib.Path, required=True, help=text)
-    parser.add_argument("--version-text", required=True, help=argparse.SUPPRESS)
+    add_page_arguments(parser)
     arguments = parser.parse_args()
     for group in arguments.drives:
         if len(group) < 3 or group[0] not in VARIANTS:
@@ -161,9 +159,8 @@ def main():
     arguments.work.mkdir(parents=True, exist_ok=True)
     rows, missing = measure(arguments.programs, arguments.drives, arguments.work)
     text = page(arguments.version_text, rows, missing, machine())
-    arguments.out.write_text(text, encoding="utf-8")
     print(text)
-    print(f"written: {arguments.out}", file=sys.stderr)
+    write_page(text, arguments.out)
     return 0 if rows else 1
 
 

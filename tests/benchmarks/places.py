@@ -9,7 +9,7 @@ import math
 import pathlib
 import sys
 
-from report import Failed, figure, machine, run, table
+from report import Failed, add_page_arguments, figure, machine, run, table, write_page
 
 ELSEWHERE = "elsewhere"  # drive and library on different campuses: every match is wrong
 NORMAL = 1.96            # quantile of the normal distribution for a two-sided interval of 95 %
@@ -93,16 +93,13 @@ def page(version, rows, missing, where):
 def main():
     parser = argparse.ArgumentParser(prog="panvo bench places", description=__doc__.splitlines()[0])
     parser.add_argument("--pair", nargs=3, action="append", required=True, metavar=("NAME", "LIBRARY", "DRIVE"))
-    for name, text in (("out", "the page to write"), ("work", "folder for the results"), ("programs", argparse.SUPPRESS)):
-        parser.add_argument(f"--{name}", type=pathlib.Path, required=True, help=text)
-    parser.add_argument("--version-text", required=True, help=argparse.SUPPRESS)
+    add_page_arguments(parser)
     arguments = parser.parse_args()
     arguments.work.mkdir(parents=True, exist_ok=True)
     rows, missing = measure(arguments.programs, arguments.pair, arguments.work)
     text = page(arguments.version_text, rows, missing, machine())
-    arguments.out.write_text(text, encoding="utf-8")
     print(text)
-    print(f"written: {arguments.out}", file=sys.stderr)
+    write_page(text, arguments.out)
     return 0 if rows else 1
 
 

@@ -132,6 +132,18 @@ def machine():
     return f"{model}, {os.cpu_count()} cores"
 
 
+def add_page_arguments(parser):
+    """What every program of a page is told."""
+    for name, text in (("out", "the page to write"), ("work", "folder for the runs"), ("programs", argparse.SUPPRESS)):
+        parser.add_argument(f"--{name}", type=pathlib.Path, required=True, help=text)
+    parser.add_argument("--version-text", required=True, help=argparse.SUPPRESS)
+
+
+def write_page(text, out):
+    out.write_text(text, encoding="utf-8")
+    print(f"written: {out}", file=sys.stderr)
+
+
 def page(version, accuracy, benchmarks, where):
     rows, missing = accuracy
     tables, not_run = benchmarks
@@ -152,19 +164,16 @@ def page(version, accuracy, benchmarks, where):
 def main():
     parser = argparse.ArgumentParser(prog="panvo bench report", description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help=f"only the benchmarks {', '.join(QUICK_BENCHMARKS)}")
-    parser.add_argument("--out", type=pathlib.Path, required=True, help="the page to write")
-    parser.add_argument("--work", type=pathlib.Path, required=True, help="folder for the runs")
-    for name in ("programs", "systems", "data"):
+    add_page_arguments(parser)
+    for name in ("systems", "data"):
         parser.add_argument(f"--{name}", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--version-text", required=True, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     arguments.work.mkdir(parents=True, exist_ok=True)
     print("accuracy on recordings", file=sys.stderr)
     accuracy = measure_accuracy(arguments.programs, arguments.systems, arguments.data, arguments.work)
     print("benchmarks", file=sys.stderr)
     benchmarks = measure_benchmarks(arguments.programs, arguments.data, QUICK_BENCHMARKS if arguments.quick else BENCHMARKS)
-    arguments.out.write_text(page(arguments.version_text, accuracy, benchmarks, machine()), encoding="utf-8")
-    print(f"written: {arguments.out}", file=sys.stderr)
+    write_page(page(arguments.version_text, accuracy, benchmarks, machine()), arguments.out)
     return 1 if not accuracy[0] and not benchmarks[0] else 0
 
 

@@ -70,7 +70,6 @@ landmarks::KeypointParameters place_keypoints() {
   parameters.top_deg = 55.0;
   parameters.bottom_deg = 45.0;
   parameters.min_contrast = 0.01;
-  parameters.upright = true;
   return parameters;
 }
 

@@ -274,9 +274,8 @@ TEST_F(PositionCorrectorComponent, RejectsTheMostSimilarLandmarkWhereThereIsNone
   publish_landmark(1, 1);
   publish_panorama(place(80));
   EXPECT_NE(matches.back()->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED);
-  for (const auto& correction : corrections) {
-    EXPECT_EQ(correction->state(), panvo_msgs::msg::PositionCorrection_Constants::REJECTED);
-  }
+  ASSERT_EQ(corrections.size(), 1U);
+  EXPECT_EQ(corrections[0]->state(), panvo_msgs::msg::PositionCorrection_Constants::REJECTED);
 }
 
 TEST_F(PositionCorrectorComponent, LooksForALandmarkWhereItWasMovedTo) {

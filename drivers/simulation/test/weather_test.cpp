@@ -10,6 +10,12 @@ namespace {
 
 const Day kTen{.hour = 10.0};
 
+Effects sudden_light() {
+  Effects effects;
+  effects.sudden_light = true;
+  return effects;
+}
+
 TEST(Weather, IsSteadyWithoutEffects) {
   const Weather weather(kTen, 600.0, {}, 1);
   EXPECT_TRUE(weather.clouds().empty());
@@ -25,9 +31,7 @@ TEST(Weather, TheSunGoesOnByTwoHoursOverTheJourney) {
 }
 
 TEST(Weather, ACloudTakesTheSunWithinHalfASecondAndGivesItBack) {
-  Effects effects;
-  effects.sudden_light = true;
-  const Weather weather(kTen, 600.0, effects, 3);
+  const Weather weather(kTen, 600.0, sudden_light(), 3);
   ASSERT_GE(weather.clouds().size(), 10u);
   for (const auto& cloud : weather.clouds()) {
     const double before = weather.cloud_cover(cloud.from_s);
@@ -39,22 +43,18 @@ TEST(Weather, ACloudTakesTheSunWithinHalfASecondAndGivesItBack) {
 }
 
 TEST(Weather, OfAnOvercastDayHasNoSun) {
-  Effects effects;
-  effects.sudden_light = true;
-  const Weather weather({.overcast = true}, 600.0, effects, 3);
+  const Weather weather({.overcast = true}, 600.0, sudden_light(), 3);
   EXPECT_TRUE(weather.clouds().empty());
   EXPECT_EQ(weather.light(100.0).sun.norm(), 0.0f);
   EXPECT_TRUE(weather.light(100.0).overcast);
 }
 
 TEST(Weather, OfAWetDayIsOvercastAlsoAtNight) {
-  Effects effects;
-  effects.sudden_light = true;
-  const Weather weather({.wet = true}, 600.0, effects, 3);
+  const Weather weather({.wet = true}, 600.0, sudden_light(), 3);
   EXPECT_TRUE(weather.clouds().empty());
   EXPECT_TRUE(weather.light(100.0).overcast);
-  EXPECT_TRUE(Weather({.night = true, .wet = true}, 600.0, effects, 3).light(100.0).overcast);
-  EXPECT_FALSE(Weather({.night = true}, 600.0, effects, 3).light(100.0).overcast);
+  EXPECT_TRUE(Weather({.night = true, .wet = true}, 600.0, sudden_light(), 3).light(100.0).overcast);
+  EXPECT_FALSE(Weather({.night = true}, 600.0, sudden_light(), 3).light(100.0).overcast);
 }
 
 TEST(Day, IsWetOrInSnow) {
@@ -64,15 +64,13 @@ TEST(Day, IsWetOrInSnow) {
 }
 
 TEST(Weather, AtNightLampsReplaceTheSun) {
-  Effects effects;
-  effects.sudden_light = true;
-  const Weather weather({.night = true}, 600.0, effects, 3);
+  const Weather weather({.night = true}, 600.0, sudden_light(), 3);
   EXPECT_TRUE(weather.clouds().empty());
   EXPECT_TRUE(weather.light(100.0).lamps);
   EXPECT_EQ(weather.light(100.0).sun.norm(), 0.0f);
   EXPECT_EQ(weather.light(100.0).evening, weather.light(200.0).evening);
-  EXPECT_NE(weather.light(100.0).evening, Weather({.night = true}, 600.0, effects, 4).light(100.0).evening);
-  EXPECT_FALSE(Weather(kTen, 600.0, effects, 3).light(100.0).lamps);
+  EXPECT_NE(weather.light(100.0).evening, Weather({.night = true}, 600.0, sudden_light(), 4).light(100.0).evening);
+  EXPECT_FALSE(Weather(kTen, 600.0, sudden_light(), 3).light(100.0).lamps);
 }
 
 }  // namespace

@@ -124,6 +124,19 @@ PANVO_INLINE Float rough_exp2(const Float& value) {
   return mantissa * bits_of((Word)(whole + 127) << 23);
 }
 
+/// A random number of 32 bits from a cell of a grid and a seed.
+PANVO_INLINE Word scrambled(const Int& x, const Int& y, const Int& z, std::uint32_t seed) {
+  Word mixed = (Word)x * 0x9e3779b1u + (Word)y * 0x85ebca77u + (Word)z * 0xc2b2ae3du + seed;
+  mixed = (mixed ^ (mixed >> 15)) * 0x2c1b3c6du;
+  return (mixed ^ (mixed >> 12)) * 0x297a2d39u;
+}
+
+/// Share of the light that a smooth surface reflects, given that at normal incidence [Schlick 1994].
+PANVO_INLINE Float fresnel(const Float& at_normal, const Float& cosine) {
+  const Float rest = 1.0f - cosine;
+  return at_normal + (1.0f - at_normal) * (rest * rest) * (rest * rest) * rest;
+}
+
 struct Vector3 {
   Float x, y, z;
 };

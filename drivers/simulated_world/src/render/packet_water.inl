@@ -8,10 +8,7 @@ PANVO_INLINE Float unevenness(const Vector3& point, float cell_m, std::uint32_t 
   const Int column = floored(x);
   const Int row = floored(y);
   const auto value = [&](std::int32_t right, std::int32_t up) PANVO_ALWAYS {
-    Word mixed = (Word)(column + right) * 0x9e3779b1u + (Word)(row + up) * 0x85ebca77u + seed;
-    mixed = (mixed ^ (mixed >> 15)) * 0x2c1b3c6du;
-    mixed = (mixed ^ (mixed >> 12)) * 0x297a2d39u;
-    return (1.0f / 65536.0f) * to_float((Int)(mixed >> 16));
+    return (1.0f / 65536.0f) * to_float((Int)(scrambled(column + right, row + up, Int{}, seed) >> 16));
   };
   const auto eased = [](const Float& share) PANVO_ALWAYS { return share * share * (3.0f - 2.0f * share); };
   const Float right = eased(x - to_float(column));
@@ -47,12 +44,8 @@ PANVO_INLINE Vector3 under_water(const Water& water, const Vector3& albedo) {
   return {darker(albedo.x), darker(albedo.y), darker(albedo.z)};
 }
 
-/// Share of the light that a smooth surface of water reflects [Schlick 1994].
-PANVO_INLINE Float fresnel(const Float& cosine) {
-  constexpr float kWater = 0.02f;  // at normal incidence
-  const Float rest = 1.0f - cosine;
-  return kWater + (1.0f - kWater) * (rest * rest) * (rest * rest) * rest;
-}
+/// Share of the light that a smooth surface of water reflects.
+PANVO_INLINE Float fresnel_of_water(const Float& cosine) { return fresnel(all(0.02f), cosine); }
 
 /// How wet ground divides what it reflects.
 struct Reflectance {
@@ -64,7 +57,7 @@ struct Reflectance {
 PANVO_INLINE Reflectance reflectance_of(const Water& water, const Float& cosine) {
   constexpr float kRoughShare = 0.6f;  // of the light that a smooth surface would reflect
   constexpr float kSharpShare = 0.5f;  // of what a film reflects
-  const Float all_of_it = water.film * fresnel(cosine);
+  const Float all_of_it = water.film * fresnel_of_water(cosine);
   const Float of_film = kRoughShare * (1.0f - water.puddle) * all_of_it;
   return {water.puddle * all_of_it, kSharpShare * of_film, (1.0f - kSharpShare) * of_film};
 }
@@ -79,7 +72,7 @@ PANVO_INLINE Float glint_of(const Water& water, const Vector3& normal, const Vec
   const Float spread = 1.0f - (1.0f - kSquare) * upright * upright;
   const Float facets = kSquare * (1.0f / (spread * spread));
   const Float hidden = 4.0f * (0.1f + clamped(-dot(normal, direction), 0.0f, 1.0f));
-  const Float glint = facets * fresnel(clamped(dot(middle, towards_lamp), 0.0f, 1.0f)) * (1.0f / hidden);
+  const Float glint = facets * fresnel_of_water(clamped(dot(middle, towards_lamp), 0.0f, 1.0f)) * (1.0f / hidden);
   return choose(dot(normal, towards_lamp) > 0.0f, water.film * (1.0f - water.puddle) * glint, all(0.0f));
 }
 

@@ -183,11 +183,9 @@ PANVO_INLINE DirectLight lamplight(const ShadingTables& tables, const Hit& hit, 
 PANVO_INLINE Vector3 shine_of(const ShadingTables& tables, const Hit& hit, const Look& look) {
   constexpr float kRoom_m = 4.0f, kStorey_m = 3.0f;
   constexpr std::uint32_t kLitShare = 0x4800u;  // of 0x10000
-  const auto cell = [](const Float& value, float size) PANVO_ALWAYS { return (Word)floored((1.0f / size) * value); };
-  Word mixed = cell(hit.point.x, kRoom_m) * 0x9e3779b1u + cell(hit.point.y, kRoom_m) * 0x85ebca77u +
-               cell(hit.point.z, kStorey_m) * 0xc2b2ae3du + tables.evening;
-  mixed = (mixed ^ (mixed >> 15)) * 0x2c1b3c6du;
-  mixed = (mixed ^ (mixed >> 12)) * 0x297a2d39u;
+  const auto cell = [](const Float& value, float size) PANVO_ALWAYS { return floored((1.0f / size) * value); };
+  const Word mixed = scrambled(cell(hit.point.x, kRoom_m), cell(hit.point.y, kRoom_m), cell(hit.point.z, kStorey_m),
+                               tables.evening);
   const Int is_dark = ((Int)(look.flags & kIsWindow) != 0) & ((Int)(mixed >> 16) >= (std::int32_t)kLitShare);
   const Float shine = gather((const float*)tables.materials + 14, look.material_words);
   const Float varied = shine * (0.6f + (0.8f / 255.0f) * to_float((Int)(mixed & 0xffu)));
@@ -219,9 +217,7 @@ PANVO_INLINE Radiance radiance_of(const ShadingTables& tables, const Hit& hit, c
   const Float gloss = gather(numbers + 10, look.material_words);
   if (any((gloss > 0.0f) & hit.is_hit)) {
     const Float cosine = clamped(-dot(normal, hit.direction), 0.0f, 1.0f);
-    const Float rest = 1.0f - cosine;
-    const Float mirrored =
-        choose(gloss > 0.0f, gloss + (1.0f - gloss) * (rest * rest) * (rest * rest) * rest, all(0.0f));
+    const Float mirrored = choose(gloss > 0.0f, fresnel(gloss, cosine), all(0.0f));
     const Vector3 seen = seen_in_mirror(tables, hit.direction + (2.0f * cosine) * normal);
     radiance.base = (1.0f - mirrored) * radiance.base + (mirrored * look.open) * seen;
     radiance.sun = (1.0f - mirrored) * radiance.sun;

@@ -42,9 +42,8 @@ struct MatchingParameters {
           "addition to the search radius, in standard deviations of the position", 0.0, 10.0);
     field(&P::max_histogram_distance, "max_histogram_distance", "1", "T_h [Lu2015 5.1]", 0.0, 1.0);
     field(&P::max_large_distance, "max_large_distance", "1",
-          "T_fl, large-scale distance relative to its mean over all headings [Lu2015 5.1]; other places have 0.85 or "
-          "more, "
-          "at night the same place up to 0.92",
+          "T_fl, large-scale distance relative to its mean over all headings [Lu2015 5.1]; other places have 0.8 or "
+          "more, the same place at night up to 0.92",
           0.0, 1.0);
     field(&P::max_small_distance, "max_small_distance", "1", "T_fs, the same for the small-scale features [Lu2015 5.1]",
           0.0, 1.0);

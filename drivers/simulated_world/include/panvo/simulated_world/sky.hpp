@@ -10,7 +10,7 @@
 namespace panvo::simulated_world {
 
 /// Daylight, or the light of a night with lamps, in units in which a white matte surface perpendicular to the sunlight
-/// has radiance about 1. Nights are about 10,000 times as bright as real ones, as if the exposure were that much longer.
+/// has radiance about 1. Nights are some hundred times as bright as real ones, as if the exposure were that much longer.
 struct Light {
   Eigen::Vector3f to_sun{0.4f, 0.3f, 0.86f};    ///< unit, world frame
   Eigen::Vector3f sun{0.8f, 0.77f, 0.7f};       ///< of a white surface perpendicular to the sunlight
