@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <numbers>
 
 #include "panvo/interfaces/validity.hpp"
@@ -11,8 +12,16 @@ constexpr double kMaxTurn_rad = std::numbers::pi + 1e-6;  // allows for rounding
 constexpr double kMaxAngleVariance = 1e3;                 // larger than any angle squared, so "unknown"
 constexpr double kMaxSigma = 1e9;                         // of an unknown pose
 constexpr double kMaxResidual_px = 1e6;
+constexpr double kMaxBearingError = 1e-3;  // of the length of a unit vector
+constexpr std::size_t kMaxTracks = 16;
+constexpr std::size_t kMaxTrackedPoints = 100'000;
 constexpr std::size_t kMaxStatuses = 10'000;
 constexpr std::size_t kMaxValues = 10'000;
+
+void check_bearing(Check& check, MemberName name, const geometry_msgs::msg::Vector3& bearing) {
+  const double length = std::hypot(bearing.x(), bearing.y(), bearing.z());
+  check.require(std::abs(length - 1.0) < kMaxBearingError, name, "is not a unit vector");
+}
 
 }  // namespace
 
@@ -73,6 +82,28 @@ Problem problem_of(const panvo_msgs::msg::OdometryQuality& message) {
   check.text("reason", message.reason());
   check.within("inlier_ratio", message.inlier_ratio(), 0.0, 1.0);
   check.within("residual_px", message.residual_px(), 0.0, kMaxResidual_px);
+  return check.problem();
+}
+
+Problem problem_of(const panvo_msgs::msg::PanoramaPoints& message) {
+  Check check;
+  check_header(check, message.header());
+  check.at_most("tracks", message.tracks().size(), kMaxTracks);
+  if (!check.holds() || message.tracks().empty()) return check.problem();
+  check_rotation(check, "now_from_then", message.now_from_then());
+  for (const auto& track : message.tracks()) {
+    check_stamp(check, "tracks.from_stamp", track.from_stamp());
+    check.at_most("tracks.points", track.points().size(), kMaxTrackedPoints);
+    for (const auto& point : track.points()) {
+      if (!check.holds()) break;
+      check_bearing(check, "tracks.points.then", point.then());
+      check_bearing(check, "tracks.points.now", point.now());
+      check.within("tracks.points.azimuth_variance_rad2", point.azimuth_variance_rad2(), kMinVariance,
+                   kMaxAngleVariance);
+      check.within("tracks.points.elevation_variance_rad2", point.elevation_variance_rad2(), kMinVariance,
+                   kMaxAngleVariance);
+    }
+  }
   return check.problem();
 }
 

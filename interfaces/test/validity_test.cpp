@@ -135,8 +135,9 @@ TEST(Validity, IsReachedThroughTheMessageType) {
 
 TEST(Validity, IsDeclaredForEveryMessageOfOurs) {
   for (const MessageType* type : message_types()) {
-    const bool is_part =
-        type->name == "panvo_msgs/msg/AdaptiveFeature" || type->name == "panvo_msgs/msg/LandmarkKeypoint";
+    const bool is_part = type->name == "panvo_msgs/msg/AdaptiveFeature" ||
+                         type->name == "panvo_msgs/msg/LandmarkKeypoint" ||
+                         type->name == "panvo_msgs/msg/PointTracks" || type->name == "panvo_msgs/msg/TrackedPoint";
     const bool is_ours = type->name.starts_with("panvo_msgs/msg/");
     EXPECT_TRUE(!is_ours || is_part || type->problem != nullptr) << type->name;
   }
@@ -272,6 +273,30 @@ TEST(Validity, OfTheCompassNeedsADirectionThatIsAnAngleOrNotKnown) {
   message.motion_azimuth_variance_rad2(0.0);
   message.motion_azimuth_rad(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(problem(message), "motion_azimuth_rad is not finite");
+}
+
+TEST(Validity, OfPointsInAPanoramaNeedsBearingsOfUnitLength) {
+  panvo_msgs::msg::PanoramaPoints message;
+  EXPECT_EQ(problem(message), "") << "no motion can be seen";
+  panvo_msgs::msg::TrackedPoint point;
+  point.then().x(1.0);
+  point.now().y(-1.0);
+  point.azimuth_variance_rad2(1e-6);
+  point.elevation_variance_rad2(1e-6);
+  message.now_from_then().w(1.0);
+  message.tracks().resize(1);
+  message.tracks()[0].points() = {point, point};
+  EXPECT_EQ(problem(message), "");
+  message.tracks()[0].points()[1].now().z(0.1);
+  EXPECT_EQ(problem(message), "tracks.points.now is not a unit vector");
+  message.tracks()[0].points()[1].now().z(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(problem(message), "tracks.points.now is not a unit vector");
+  message.tracks()[0].points()[1] = point;
+  message.tracks()[0].points()[1].elevation_variance_rad2(0.0);
+  EXPECT_EQ(problem(message), "tracks.points.elevation_variance_rad2 is not between 1e-12 and 1000");
+  message.tracks()[0].points().pop_back();
+  message.now_from_then().w(0.5);
+  EXPECT_NE(problem(message), "");
 }
 
 TEST(Validity, KnowsWhichStampsAreOfTheTimeOfSending) {

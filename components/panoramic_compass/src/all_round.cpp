@@ -21,6 +21,8 @@ constexpr double kPerRadian =
     BandCutter::kColumns / (2.0 * std::numbers::pi);  // columns and rows of the full-size panorama
 constexpr int kScale = 2;                             // sector patches are matched at half size
 constexpr double kMinFoundShare = 0.15;               // of the reference points: fewer may agree by chance
+constexpr std::size_t kMaxEarlier = 3;                // references before that are still followed
+constexpr std::size_t kMinEarlier = 15;               // points of the reference before, to be of use
 constexpr int kMaxFailures = 3;                       // consecutive failures before a new reference is taken
 constexpr double kSideSector_rad = 0.6;               // on each side of the lateral direction
 constexpr double kAhead = 0.05;        // sine: closer to the direction of travel, the magnification is undefined
@@ -65,6 +67,7 @@ class AllRound final : public PanoramicCompass::Method {
   std::optional<AzimuthChange> track(std::int64_t stamp_ns, const cv::Mat& panorama,
                                      double expected_turn_rad) override {
     expected_rad_ += expected_turn_rad;
+    has_points_ = false;
     const auto fault = find_fault(panorama);
     if (fault) return has_reference_ ? std::optional(invalid(stamp_ns, "the panorama " + *fault)) : std::nullopt;
     const cv::Mat band = prepare(panorama);
@@ -74,9 +77,16 @@ class AllRound final : public PanoramicCompass::Method {
     }
     AzimuthChange change = measure(stamp_ns);
     failures_ = change.valid ? 0 : failures_ + 1;
-    if (failures_ >= kMaxFailures || needs_reference_) refer_to(stamp_ns);
+    if (failures_ >= kMaxFailures || needs_reference_) {
+      keep_earlier();
+      refer_to(stamp_ns);
+    }
     return change;
   }
+
+  void keep_earlier_points() override { keeps_earlier_ = true; }
+
+  const TrackedPoints* points() const override { return has_points_ ? &tracked_ : nullptr; }
 
  private:
   cv::Mat prepare(const cv::Mat& panorama) {
@@ -96,7 +106,8 @@ class AllRound final : public PanoramicCompass::Method {
     if (shifts.beyond_range) return invalid(stamp_ns, shifts.reason);
     const double turned_rad = kScale * shifts.turn_px / kPerRadian;
     now_from_reference_ = vision::so3_exp({0.0, 0.0, -turned_rad}) * now_from_reference_;
-    const std::vector<BearingPair> pairs = find_points(shifts);
+    find_points(shifts);
+    const std::vector<BearingPair>& pairs = tracked_.tracks.front().pairs;
     describe_sectors(stamp_ns);
     const vision::Stage stage(observer_, "fit");
     const auto fit = fit_turn(pairs, now_from_reference_, drift_);
@@ -125,10 +136,17 @@ class AllRound final : public PanoramicCompass::Method {
     }
     change.reason = reason.str();
     change.valid = change.reason.empty();
-    if (change.valid) now_from_reference_ = fit->now_from_then;
-    if (change.valid) drift_ = fit->drift;
-    if (change.valid) needs_reference_ = ++age_ >= demand.max_reference_panoramas || has_left(*fit);
+    if (change.valid) take(*fit, stamp_ns);
     return change;
+  }
+
+  void take(const TurnFit& fit, std::int64_t stamp_ns) {
+    now_from_reference_ = fit.now_from_then;
+    drift_ = fit.drift;
+    needs_reference_ = ++age_ >= parameters_.agreement.max_reference_panoramas || has_left(fit);
+    tracked_.stamp_ns = stamp_ns;
+    tracked_.now_from_then = fit.now_from_then;
+    has_points_ = true;
   }
 
   /// Whether the view differs too much from the reference panorama.
@@ -145,23 +163,35 @@ class AllRound final : public PanoramicCompass::Method {
                           parameters_.patches.max_distance);
   }
 
-  std::vector<BearingPair> find_points(const SectorShifts& shifts) {
+  void find_points(const SectorShifts& shifts) {
     const vision::Stage stage(observer_, "points");
+    tracked_.tracks.resize(1);
+    tracked_.tracks[0] = {reference_ns_, follow(field_, shifts, now_from_reference_)};
+    std::erase_if(earlier_, [&](Earlier& earlier) {
+      auto pairs = follow(earlier.field, shifts, now_from_reference_ * earlier.reference_from_earlier);
+      if (pairs.size() < kMinEarlier) return true;
+      tracked_.tracks.push_back({earlier.stamp_ns, std::move(pairs)});
+      return false;
+    });
+  }
+
+  std::vector<BearingPair> follow(PointField& field, const SectorShifts& shifts,
+                                  const Eigen::Matrix3d& now_from_then) const {
     constexpr int kSectors = SectorShifts::kSectors;
     const auto shift_px = [&](double u) {
       const int sector = std::clamp(static_cast<int>(u * kSectors / BandCutter::kColumns), 0, kSectors - 1);
       return kScale * shifts.sector_px[static_cast<std::size_t>(sector)];
     };
-    const auto magnification = [this, drift_then = Eigen::Vector3d(now_from_reference_.transpose() * drift_)](
+    const auto magnification = [this, drift_then = Eigen::Vector3d(now_from_then.transpose() * drift_)](
                                    const Eigen::Vector2d& then, const Eigen::Vector2d& now) {
       return magnified(bearing(then).cross(drift_then).norm(), bearing(now).cross(drift_).norm());
     };
     std::vector<BearingPair> pairs;
-    for (const FoundPoint& found : field_.follow(now_, shift_px, magnification)) {
+    for (const FoundPoint& found : field.follow(now_, shift_px, magnification)) {
       const double cosine = std::cos((found.now.y() + cutter_.first_row - 0.5 * BandCutter::kRows) / kPerRadian);
       const Eigen::Vector2d per_pixel(cosine / kPerRadian, 1.0 / kPerRadian);
       pairs.push_back(
-          {bearing(found.then), bearing(found.now), found.variance_px2.cwiseProduct(per_pixel.cwiseAbs2())});
+          {bearing(found.then), bearing(found.now), found.variance_px2.cwiseProduct(per_pixel.cwiseAbs2()), found.id});
     }
     return pairs;
   }
@@ -201,6 +231,15 @@ class AllRound final : public PanoramicCompass::Method {
     sectors_.describe(*features_);
   }
 
+  /// Goes on following the points of the reference for some time after its end.
+  void keep_earlier() {
+    if (!keeps_earlier_ || !has_points_) return earlier_.clear();
+    for (Earlier& earlier : earlier_)
+      earlier.reference_from_earlier = now_from_reference_ * earlier.reference_from_earlier;
+    earlier_.push_back({std::move(field_), reference_ns_, now_from_reference_});
+    if (earlier_.size() > kMaxEarlier) earlier_.erase(earlier_.begin());
+  }
+
   void refer_to(std::int64_t stamp_ns) {
     const vision::Stage stage(observer_, "reference");
     field_ = PointField(now_, parameters_.points);
@@ -229,6 +268,15 @@ class AllRound final : public PanoramicCompass::Method {
   std::optional<FeatureBand> features_;
   PointField field_;
   std::size_t points_at_first_ = 0;
+  struct Earlier {
+    PointField field;
+    std::int64_t stamp_ns;
+    Eigen::Matrix3d reference_from_earlier;
+  };
+  std::vector<Earlier> earlier_;  // in order of stamps
+  bool keeps_earlier_ = false;
+  TrackedPoints tracked_;
+  bool has_points_ = false;  // tracked_ belongs to the last panorama
   std::int64_t reference_ns_ = 0;
   std::optional<std::int64_t> described_ns_;  // stamp of the panorama in which the sectors were described
   bool has_reference_ = false, needs_reference_ = false;

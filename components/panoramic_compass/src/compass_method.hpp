@@ -13,6 +13,8 @@ class PanoramicCompass::Method {
   virtual ~Method() = default;
   virtual std::optional<AzimuthChange> track(std::int64_t stamp_ns, const cv::Mat& panorama,
                                              double expected_turn_rad) = 0;
+  virtual void keep_earlier_points() {}
+  virtual const TrackedPoints* points() const { return nullptr; }
 };
 
 std::unique_ptr<PanoramicCompass::Method> make_two_patches(const CompassParameters& parameters, std::uint64_t seed,

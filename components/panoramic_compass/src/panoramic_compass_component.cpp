@@ -14,6 +14,7 @@
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/vision/panorama_watch.hpp"
+#include "point_messages.hpp"
 
 namespace panvo::panoramic_compass {
 
@@ -42,7 +43,7 @@ struct ComponentParameters : CompassParameters {
 };
 
 /// panorama/image, /tf_static -> compass/azimuth_change, one message per panorama except the first; invalid ones state
-/// the reason.
+/// the reason; and compass/points, if read.
 class PanoramicCompassComponent final : public runtime::Component {
  public:
   explicit PanoramicCompassComponent(runtime::Context& context)
@@ -50,6 +51,7 @@ class PanoramicCompassComponent final : public runtime::Component {
         parameters_(context.parameters<ComponentParameters>()),
         timer_(context.times()),
         azimuth_change_(context.output(topics::kAzimuthChange)),
+        points_(context.output(topics::kPanoramaPoints)),
         transforms_(context) {
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(*message); });
     make_compass(upright_base_from_panorama());
@@ -82,7 +84,10 @@ class PanoramicCompassComponent final : public runtime::Component {
       return tell({.from_stamp_ns = *before_ns, .stamp_ns = stamp_ns, .reason = "the panorama " + *fault},
                   message.header().frame_id());
     }
+    const bool has_point_reader = context_.has_reader(topics::kPanoramaPoints);
+    if (has_point_reader) compass_->keep_earlier_points();
     const auto change = compass_->track(stamp_ns, *panorama);
+    if (has_point_reader) points_.publish(to_message(stamp_ns, compass_->points(), message.header().frame_id()));
     if (change) return tell(*change, message.header().frame_id());
     if (const auto fault = find_fault(*panorama)) {
       context_.log().warn_throttled(*fault, "{} {}", context_.resolved_name(topics::kPanorama), *fault);
@@ -119,6 +124,7 @@ class PanoramicCompassComponent final : public runtime::Component {
   const ComponentParameters parameters_;
   conversions::StageTimer timer_;
   runtime::Output<panvo_msgs::msg::AzimuthChange> azimuth_change_;
+  runtime::Output<panvo_msgs::msg::PanoramaPoints> points_;
 
   conversions::TransformListener transforms_;
   Eigen::Matrix3d base_from_panorama_;

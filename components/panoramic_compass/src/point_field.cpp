@@ -49,7 +49,7 @@ PointField::PointField(const RoundBand& reference, const PointParameters& parame
     const Eigen::Vector2d place = corner.position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
     if (place.x() < 0.0 || place.x() >= reference.columns || !is_solid(reference, corner.position)) continue;
     const auto half = PatchTemplate::sample(reference.pyramid[1], 0.5 * corner.position);
-    if (half) points_.push_back({place, place, *half, {}});
+    if (half) points_.push_back({static_cast<int>(points_.size()), place, place, *half, {}});
   }
 }
 
@@ -79,7 +79,7 @@ std::vector<FoundPoint> PointField::find(const RoundBand& now, const Magnificati
     point.missed = 0;
     point.at = fine->position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
     point.at.x() = wrapped(point.at.x(), now.columns);
-    found.push_back({point.then, point.at, fine->variance + Eigen::Vector2d::Constant(kPlaceVariance_px2)});
+    found.push_back({point.id, point.then, point.at, fine->variance + Eigen::Vector2d::Constant(kPlaceVariance_px2)});
   }
   std::erase_if(points_, [](const Point& point) { return point.missed >= kMaxMissed; });
   return found;

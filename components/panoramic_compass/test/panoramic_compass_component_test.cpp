@@ -59,6 +59,22 @@ TEST_F(PanoramicCompassComponent, TellsTheTurnOfEachPanoramaButTheFirst) {
   EXPECT_FALSE(harness.log_contains("warning"));
 }
 
+TEST_F(PanoramicCompassComponent, TellsThePointsIfAnybodyReadsThem) {
+  const auto& points = harness.collect(topics::kPanoramaPoints);
+  load();
+  publish(street);
+  publish(turned_left(street, 10.0));
+  publish(cv::Mat(street.size(), CV_8UC1, cv::Scalar(0)));
+  ASSERT_EQ(points.size(), 3U) << "one per panorama";
+  EXPECT_TRUE(points[0]->tracks().empty());
+  ASSERT_EQ(points[1]->tracks().size(), 1U);
+  EXPECT_EQ(conversions::to_ns(points[1]->tracks()[0].from_stamp()), kPeriod_ns);
+  EXPECT_EQ(conversions::to_ns(points[1]->header().stamp()), 2 * kPeriod_ns);
+  EXPECT_GT(points[1]->tracks()[0].points().size(), 50U);
+  EXPECT_NEAR(points[1]->now_from_then().z(), -std::sin(0.5 * 10.0 * kColumn_rad), 1e-4);
+  EXPECT_TRUE(points[2]->tracks().empty()) << "a black panorama";
+}
+
 TEST_F(PanoramicCompassComponent, HasThePapersMethodToo) {
   load({{"method", "two_patches"}});
   publish(street);

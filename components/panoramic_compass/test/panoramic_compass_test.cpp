@@ -215,6 +215,40 @@ TEST(PointsAllRound, AreMeasuredAgainstOneReferenceAsLongAsItLasts) {
   }
 }
 
+TEST(PointsAllRound, AreToldWithTheirReferenceAndThoseBefore) {
+  CompassParameters parameters;
+  parameters.agreement.max_reference_panoramas = 2;
+  PanoramicCompass compass(parameters);
+  compass.keep_earlier_points();
+  const cv::Mat street = paint_panorama();
+  const auto look = [&](std::int64_t stamp_ns, double columns) {
+    compass.track(stamp_ns, turned_left(street, columns));
+    return compass.points();
+  };
+  EXPECT_EQ(look(0, 0.0), nullptr) << "nothing to compare with";
+  ASSERT_EQ(look(1, 10.0)->tracks.size(), 1U);
+  ASSERT_EQ(look(2, 20.0)->tracks.size(), 1U) << "the last panorama with this reference";
+  const TrackedPoints* points = look(3, 30.0);
+  ASSERT_EQ(points->tracks.size(), 2U);
+  EXPECT_EQ(points->stamp_ns, 3);
+  EXPECT_EQ(points->tracks[0].from_stamp_ns, 2);
+  EXPECT_EQ(points->tracks[1].from_stamp_ns, 0);
+  const double turned_rad[] = {10.0 * kColumn_rad, 30.0 * kColumn_rad};
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_GT(points->tracks[i].pairs.size(), 50U);
+    for (const BearingPair& pair : points->tracks[i].pairs) {
+      const Eigen::Vector3d expected = Eigen::AngleAxisd(-turned_rad[i], Eigen::Vector3d::UnitZ()) * pair.then;
+      EXPECT_LT((pair.now - expected).norm(), 0.3 * kColumn_rad);
+    }
+  }
+  EXPECT_LT(
+      (points->now_from_then - Eigen::AngleAxisd(-turned_rad[0], Eigen::Vector3d::UnitZ()).toRotationMatrix()).norm(),
+      0.1 * kColumn_rad);
+  for (int i = 4; i < 16; ++i) points = look(i, 10.0 * i);
+  EXPECT_LE(points->tracks.size(), 4U) << "bounded";
+  EXPECT_EQ(look(16, 700.0), nullptr) << "no valid turn";
+}
+
 TEST(PointsAllRound, SayThatTheyContradictEachOther) {
   const cv::Mat street = paint_panorama();
   cv::Mat now = turned_left(street, 4.0);

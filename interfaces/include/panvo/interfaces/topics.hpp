@@ -15,6 +15,7 @@
 #include "panvo_msgs/msg/LandmarkPoses.h"
 #include "panvo_msgs/msg/LocalizationState.h"
 #include "panvo_msgs/msg/OdometryQuality.h"
+#include "panvo_msgs/msg/PanoramaPoints.h"
 #include "panvo_msgs/msg/PanoramicLandmark.h"
 #include "panvo_msgs/msg/PositionCorrection.h"
 #include "sensor_msgs/msg/CameraInfo.h"
@@ -63,6 +64,10 @@ inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryBinocular{"odometry/bin
 inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryQuality{"odometry/quality", qos::kResult};
 /// Points that the odometry tracks: x, y, z in the odometry's frame, u, v in the left image. Only made for readers.
 inline constexpr Topic<sensor_msgs::msg::PointCloud2> kOdometryPoints{"odometry/points", qos::kSensorData};
+/// Stereo odometry, continued by the panoramas while the stereo camera fails.
+inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryAllRound{"odometry/all_round", qos::kResult};
+inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryAllRoundQuality{"odometry/all_round_quality",
+                                                                                  qos::kResult};
 /// Stereo odometry, gyroscope and wheels in one.
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryFused{"odometry/fused", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryFusedQuality{"odometry/fused_quality", qos::kResult};
@@ -70,6 +75,8 @@ inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryEnhanced{"odometry/enha
 /// The enhanced pose, carried on to each sample of the gyroscope.
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryFast{"odometry/fast", kMotionSensor};
 inline constexpr Topic<panvo_msgs::msg::AzimuthChange> kAzimuthChange{"compass/azimuth_change", qos::kResult};
+/// Points on all sides that the compass tracks. Only made for readers.
+inline constexpr Topic<panvo_msgs::msg::PanoramaPoints> kPanoramaPoints{"compass/points", qos::kResult};
 /// Each landmark once, when it is built.
 inline constexpr Topic<panvo_msgs::msg::PanoramicLandmark> kLandmarks{"landmarks", qos::kHistory};
 inline constexpr Topic<panvo_msgs::msg::LandmarkMatch> kLandmarkMatch{"landmarks/match", qos::kResult};

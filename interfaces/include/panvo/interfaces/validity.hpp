@@ -19,6 +19,7 @@
 #include "panvo_msgs/msg/LandmarkPoses.h"
 #include "panvo_msgs/msg/LocalizationState.h"
 #include "panvo_msgs/msg/OdometryQuality.h"
+#include "panvo_msgs/msg/PanoramaPoints.h"
 #include "panvo_msgs/msg/PanoramicLandmark.h"
 #include "panvo_msgs/msg/PositionCorrection.h"
 #include "rcl_interfaces/msg/Log.h"
@@ -72,6 +73,7 @@ Problem problem_of(const panvo_msgs::msg::CorrectionOutcome& message);
 Problem problem_of(const panvo_msgs::msg::Integrity& message);
 Problem problem_of(const panvo_msgs::msg::LocalizationState& message);
 Problem problem_of(const panvo_msgs::msg::OdometryQuality& message);
+Problem problem_of(const panvo_msgs::msg::PanoramaPoints& message);
 Problem problem_of(const panvo_msgs::msg::PositionCorrection& message);
 Problem problem_of(const diagnostic_msgs::msg::DiagnosticArray& message);
 Problem problem_of(const rcl_interfaces::msg::Log& message);

@@ -7,9 +7,11 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "panvo/panoramic_compass/azimuth_change.hpp"
 #include "panvo/panoramic_compass/compass_parameters.hpp"
+#include "panvo/panoramic_compass/turn_fit.hpp"
 #include "panvo/vision/stage_observer.hpp"
 
 namespace panvo::panoramic_compass {
@@ -21,6 +23,19 @@ std::optional<std::string> find_fault(const cv::Mat& panorama);
 
 /// Mounting of an upright, forward-looking camera: panorama axes X right, Y down, Z forward.
 Eigen::Matrix3d upright_base_from_panorama();
+
+/// Points of a reference panorama, found in a later one.
+struct PointTracks {
+  std::int64_t from_stamp_ns = 0;  ///< of the reference
+  std::vector<BearingPair> pairs;
+};
+
+/// What a panorama shows of the points of its reference and, for some time, of the reference before.
+struct TrackedPoints {
+  std::int64_t stamp_ns = 0;
+  Eigen::Matrix3d now_from_then = Eigen::Matrix3d::Identity();  ///< rotation of the vehicle's axes since the reference
+  std::vector<PointTracks> tracks;                              ///< that of the reference first
+};
 
 /// Estimates the turn of the vehicle between panoramas, from the panoramas alone [Lu2015 6].
 class PanoramicCompass {
@@ -39,6 +54,13 @@ class PanoramicCompass {
   /// determined.
   std::optional<AzimuthChange> track(std::int64_t stamp_ns, const cv::Mat& panorama,
                                      std::optional<double> expected_turn_rad = std::nullopt);
+
+  /// From now on, points() has the points of the reference before, too.
+  void keep_earlier_points();
+
+  /// The points behind the last valid turn; nullptr if it was not valid, and with method `two_patches`. Valid until the
+  /// next call of track().
+  const TrackedPoints* points() const;
 
   class Method;
 

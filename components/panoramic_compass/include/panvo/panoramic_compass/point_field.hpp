@@ -29,6 +29,7 @@ struct RoundBand {
 
 /// A point of the reference panorama, found in another one; px in the band, u in [0, columns).
 struct FoundPoint {
+  int id = 0;  ///< the same in all panoramas
   Eigen::Vector2d then = Eigen::Vector2d::Zero();
   Eigen::Vector2d now = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_px2 = Eigen::Vector2d::Zero();  ///< of `now`
@@ -56,6 +57,7 @@ class PointField {
 
  private:
   struct Point {
+    int id;
     Eigen::Vector2d then, at;  // in the reference; in the last panorama
     vision::PatchTemplate half;
     std::optional<vision::PatchTemplate> full;  // at the last expected magnification

@@ -13,6 +13,7 @@ struct BearingPair {
   Eigen::Vector3d then;
   Eigen::Vector3d now;
   Eigen::Vector2d variance_rad2;  ///< of `now`, along azimuth (great-circle angle) and elevation
+  int id = 0;                     ///< of the point in its reference panorama
 };
 
 /// Motion supported by most points.

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/all_round_odometry/all_round_odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "panvo/vision/step_covariance.hpp"
+
+namespace panvo::all_round_odometry {
+namespace {
+
+constexpr double kSecond_ns = 1e9;
+constexpr double kHistory_s = 6.0;  // longer than a panorama serves as reference
+constexpr double kMaxGap_s = 0.5;   // between two stereo poses: a vehicle may turn within a longer one
+constexpr double kMaxSpeed = 70.0;  // m/s: faster is no vehicle
+constexpr double kSlack_m = 5.0;    // for jitter of the stamps
+constexpr int kMaxUnreachable = 5;  // consecutive poses, after which the stereo odometry has another origin
+// Share of the points that agree with the stereo odometry: it is usually above 0.8. Fewer contradict it, if clearly more
+// agree on another motion.
+constexpr double kContradicted = 0.6, kClearly = 0.25;
+constexpr double kAcceleration = 1.5, kTurnAcceleration = 0.5;  // m/s^2 and rad/s^2, usual for a vehicle
+constexpr std::size_t kMaxStereo = 2000, kMaxPanoramas = 50;
+
+double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
+
+}  // namespace
+
+AllRoundOdometry::AllRoundOdometry(const Parameters& parameters, const Eigen::Vector3d& base_from_camera)
+    : parameters_(parameters), motion_(base_from_camera) {}
+
+bool AllRoundOdometry::add(const StereoPose& stereo) {
+  if (!stereo_.empty() && stereo.stamp_ns <= stereo_.back().stamp_ns) return false;
+  if (is_unreachable(stereo)) return true;
+  const bool has_panoramas = panorama_ns_ && seconds(*panorama_ns_, stereo.stamp_ns) < parameters_.patience_s;
+  stereo_.push_back(stereo);
+  is_stereo_silent_ = false;
+  if (blind_ || held_ > 0 || (!stereo.is_reliable && has_panoramas)) {
+    ++held_;
+  } else {
+    emit(stereo);
+  }
+  process();
+  while (stereo_.size() > kMaxStereo ||
+         (stereo_.size() > held_ + 1 && seconds(stereo_.front().stamp_ns, stereo.stamp_ns) > kHistory_s)) {
+    stereo_.pop_front();
+    held_ = std::min(held_, stereo_.size());
+  }
+  return true;
+}
+
+/// Whether no vehicle gets to a pose from the one before. It is passed on as it is, because whoever reads it may know the
+/// reason. Several in a row are a stereo odometry that was started anew.
+bool AllRoundOdometry::is_unreachable(const StereoPose& stereo) {
+  if (stereo_.empty()) return false;
+  const StereoPose& before = stereo_.back();
+  const double way_m = (stereo.odom_from_base.translation() - before.odom_from_base.translation()).norm();
+  if (way_m <= kSlack_m + kMaxSpeed * seconds(before.stamp_ns, stereo.stamp_ns)) {
+    unreachable_ = 0;
+    return false;
+  }
+  if (++unreachable_ >= kMaxUnreachable) {
+    unreachable_ = 0;
+    held_ = 0;
+    stereo_.clear();
+    blind_.reset();
+    last_.reset();
+    return false;
+  }
+  if (!blind_ && held_ == 0) emit(stereo);
+  return true;
+}
+
+void AllRoundOdometry::add(const PanoramaPoints& panorama, bool is_stereo_silent) {
+  if (panorama_ns_ && panorama.stamp_ns <= *panorama_ns_) return;
+  is_stereo_silent_ = is_stereo_silent;
+  panorama_ns_ = panorama.stamp_ns;
+  panoramas_.push_back(panorama);
+  if (panoramas_.size() > kMaxPanoramas) panoramas_.pop_front();
+  process();
+}
+
+std::optional<AllRoundPose> AllRoundOdometry::next() {
+  if (ready_.empty()) return std::nullopt;
+  const AllRoundPose pose = ready_.front();
+  ready_.pop_front();
+  return pose;
+}
+
+void AllRoundOdometry::process() {
+  while (!panoramas_.empty() && !stereo_.empty()) {
+    if (stereo_.back().stamp_ns < panoramas_.front().stamp_ns && !is_stereo_silent_) break;
+    process(panoramas_.front());
+    panoramas_.pop_front();
+  }
+  if (held_ > 0 && seconds(sure_ns_, stereo_.back().stamp_ns) > parameters_.patience_s) give_up();
+}
+
+void AllRoundOdometry::process(const PanoramaPoints& panorama) {
+  if (panorama.tracks.empty()) return;
+  const std::int64_t before_ns = motion_.before_ns(panorama);
+  const auto step = measured(before_ns, panorama.stamp_ns);
+  const bool is_stereo_wrong = step && is_contradicted(panorama, *step, before_ns);
+  if (step) is_contradicted_ = is_stereo_wrong;
+  if (step && !is_stereo_wrong) {
+    learn(panorama, before_ns, *step);
+  } else {
+    measure(panorama, before_ns);
+  }
+  if (blind_ && !is_contradicted_) return_to_stereo(panorama.stamp_ns);
+}
+
+/// Whether the stereo odometry followed something else, such as a lorry that fills its view: the points on all sides
+/// show another motion, which goes on steadily. If it is the motion in the panoramas that changed abruptly, their camera
+/// was turned.
+bool AllRoundOdometry::is_contradicted(const PanoramaPoints& panorama, const Eigen::Isometry3d& step,
+                                       std::int64_t before_ns) const {
+  const auto share = motion_.agreeing_share(panorama, step);
+  if (!share || *share > kContradicted) return false;
+  const double interval_s = seconds(before_ns, panorama.stamp_ns);
+  PanoramicMotion trial = motion_;
+  const auto seen = trial.measure(panorama, vision::se3_exp(twist_ * interval_s));
+  if (!seen || surprise(seen->before_from_now, interval_s) > surprise(step, interval_s)) return false;
+  return motion_.agreeing_share(panorama, seen->before_from_now).value_or(0.0) > *share + kClearly;
+}
+
+/// Deviation of a step from steady motion, in units of usual accelerations.
+double AllRoundOdometry::surprise(const Eigen::Isometry3d& step, double interval_s) const {
+  const vision::Vector6d change = vision::se3_log(step) / interval_s - twist_;
+  return std::max(change.head<3>().norm() / kAcceleration, change.tail<3>().norm() / kTurnAcceleration);
+}
+
+/// Learns the distances of points from a motion that the stereo odometry measured.
+void AllRoundOdometry::learn(const PanoramaPoints& panorama, std::int64_t before_ns, const Eigen::Isometry3d& step) {
+  motion_.learn(panorama, step);
+  twist_ = vision::se3_log(step) / seconds(before_ns, panorama.stamp_ns);
+  if (!blind_) {
+    last_ = PanoramaPose{panorama.stamp_ns, shifted(*stereo_at(panorama.stamp_ns))};
+  } else if (last_->stamp_ns == before_ns) {
+    const auto before = *stereo_at(before_ns), now = *stereo_at(panorama.stamp_ns);
+    advance(step,
+            vision::step_covariance(before.odom_from_base, before.covariance, now.odom_from_base, now.covariance));
+    last_ = PanoramaPose{panorama.stamp_ns, blind_pose()};
+  }
+}
+
+/// Measures a motion that the stereo odometry has not, from the last panorama with a known pose.
+void AllRoundOdometry::measure(const PanoramaPoints& panorama, std::int64_t before_ns) {
+  if (!last_ || last_->stamp_ns != before_ns) return;
+  const double interval_s = seconds(before_ns, panorama.stamp_ns);
+  const auto step = motion_.measure(panorama, vision::se3_exp(twist_ * interval_s));
+  if (!step) return;
+  if (!blind_) blind_ = Blind{last_->odometry, {}, 0.0};
+  blind_->scale_variance = step->scale_variance;
+  advance(step->before_from_now, step->covariance);
+  twist_ = vision::se3_log(step->before_from_now) / interval_s;
+  last_ = PanoramaPose{panorama.stamp_ns, blind_pose()};
+  held_ = std::min(held_, stereo_.size() - first_from(panorama.stamp_ns + 1));
+  if (panorama.stamp_ns <= emitted_ns_) return;
+  ready_.push_back(
+      {panorama.stamp_ns, last_->odometry.odom_from_base, last_->odometry.covariance, true, step->agreeing_share});
+  emitted_ns_ = sure_ns_ = panorama.stamp_ns;
+}
+
+void AllRoundOdometry::advance(const Eigen::Isometry3d& before_from_now, const vision::Matrix6d& covariance) {
+  Pose& path = blind_->begin_from_last;
+  path.covariance = vision::compose_covariance(path.odom_from_base, path.covariance, before_from_now, covariance);
+  path.odom_from_base = path.odom_from_base * before_from_now;
+}
+
+/// Ends the blind stretch at a panorama if the stereo odometry measures again.
+void AllRoundOdometry::return_to_stereo(std::int64_t stamp_ns) {
+  if (last_->stamp_ns != stamp_ns) return;
+  const std::size_t after = first_from(stamp_ns);
+  const auto stereo = stereo_at(stamp_ns);
+  if (!stereo || !stereo_[after].is_reliable) return;
+  shift_ = Shift{*stereo, last_->odometry};
+  blind_.reset();
+  held_ = std::min(held_, stereo_.size() - first_from(stamp_ns + 1));
+  emit_held();
+}
+
+/// Nothing has measured the motion for too long: goes on with what the stereo odometry says.
+void AllRoundOdometry::give_up() {
+  if (blind_) {
+    // The motion since the last panorama is that of the stereo odometry, if that was not silent.
+    const StereoPose& first = stereo_[stereo_.size() - held_];
+    const auto there = stereo_at(last_->stamp_ns);
+    shift_ = Shift{there.value_or(Pose{first.odom_from_base, first.covariance}), last_->odometry};
+    blind_.reset();
+  }
+  const std::size_t held = std::exchange(held_, 0);
+  for (std::size_t i = stereo_.size() - held; i < stereo_.size(); ++i) emit(stereo_[i]);
+}
+
+void AllRoundOdometry::emit(const StereoPose& stereo) {
+  if (stereo.stamp_ns <= emitted_ns_) return;
+  const Pose pose = shifted({stereo.odom_from_base, stereo.covariance});
+  ready_.push_back({stereo.stamp_ns, pose.odom_from_base, pose.covariance, stereo.is_reliable, std::nullopt});
+  emitted_ns_ = stereo.stamp_ns;
+  if (stereo.is_reliable) sure_ns_ = stereo.stamp_ns;
+}
+
+/// Up to the first that is not reliable.
+void AllRoundOdometry::emit_held() {
+  while (held_ > 0 && stereo_[stereo_.size() - held_].is_reliable) {
+    emit(stereo_[stereo_.size() - held_]);
+    --held_;
+  }
+}
+
+auto AllRoundOdometry::shifted(const Pose& stereo) const -> Pose {
+  if (!shift_) return stereo;
+  const Eigen::Isometry3d moved = shift_->stereo.odom_from_base.inverse() * stereo.odom_from_base;
+  const vision::Matrix6d gained = vision::step_covariance(shift_->stereo.odom_from_base, shift_->stereo.covariance,
+                                                          stereo.odom_from_base, stereo.covariance);
+  return {shift_->odometry.odom_from_base * moved,
+          vision::compose_covariance(shift_->odometry.odom_from_base, shift_->odometry.covariance, moved, gained)};
+}
+
+auto AllRoundOdometry::blind_pose() const -> Pose {
+  const Eigen::Isometry3d& moved = blind_->begin_from_last.odom_from_base;
+  vision::Matrix6d covariance = blind_->begin_from_last.covariance;
+  covariance.topLeftCorner<3, 3>() += blind_->scale_variance * moved.translation() * moved.translation().transpose();
+  return {blind_->begin.odom_from_base * moved,
+          vision::compose_covariance(blind_->begin.odom_from_base, blind_->begin.covariance, moved, covariance)};
+}
+
+/// Index of the first stereo pose not before a time.
+std::size_t AllRoundOdometry::first_from(std::int64_t stamp_ns) const {
+  const auto found = std::lower_bound(stereo_.begin(), stereo_.end(), stamp_ns,
+                                      [](const StereoPose& pose, std::int64_t at_ns) { return pose.stamp_ns < at_ns; });
+  return static_cast<std::size_t>(std::distance(stereo_.begin(), found));
+}
+
+auto AllRoundOdometry::stereo_at(std::int64_t stamp_ns) const -> std::optional<Pose> {
+  const std::size_t after = first_from(stamp_ns);
+  if (after == stereo_.size()) return std::nullopt;
+  const StereoPose& b = stereo_[after];
+  if (b.stamp_ns == stamp_ns) return Pose{b.odom_from_base, b.covariance};
+  if (after == 0) return std::nullopt;
+  const StereoPose& a = stereo_[after - 1];
+  const double share = seconds(a.stamp_ns, stamp_ns) / seconds(a.stamp_ns, b.stamp_ns);
+  return Pose{vision::interpolate(a.odom_from_base, b.odom_from_base, share),
+              (1.0 - share) * a.covariance + share * b.covariance};
+}
+
+/// The motion between two times if the stereo odometry measured all of it.
+std::optional<Eigen::Isometry3d> AllRoundOdometry::measured(std::int64_t from_ns, std::int64_t to_ns) const {
+  const auto from = stereo_at(from_ns), to = stereo_at(to_ns);
+  if (!from || !to || from_ns >= to_ns) return std::nullopt;
+  const std::size_t last = first_from(to_ns);
+  for (std::size_t i = first_from(from_ns + 1); i <= last; ++i) {
+    if (!stereo_[i].is_reliable || seconds(stereo_[i - 1].stamp_ns, stereo_[i].stamp_ns) > kMaxGap_s)
+      return std::nullopt;
+  }
+  const Eigen::Isometry3d step = from->odom_from_base.inverse() * to->odom_from_base;
+  return step;
+}
+
+}  // namespace panvo::all_round_odometry

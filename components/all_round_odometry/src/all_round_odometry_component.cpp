@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "all_round_messages.hpp"
+#include "panvo/all_round_odometry/all_round_odometry.hpp"
+#include "panvo/conversions/odometry_join.hpp"
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/stage_timer.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_listener.hpp"
+#include "panvo/interfaces/topics.hpp"
+#include "panvo/runtime/component.hpp"
+
+namespace panvo::all_round_odometry {
+
+/// odometry/binocular, odometry/quality, compass/points, /tf_static -> odometry/all_round, odometry/all_round_quality.
+class AllRoundOdometryComponent final : public runtime::Component {
+ public:
+  explicit AllRoundOdometryComponent(runtime::Context& context)
+      : context_(context),
+        parameters_(context.parameters<Parameters>()),
+        timer_(context.times()),
+        transforms_(context),
+        odometry_output_(context.output(topics::kOdometryAllRound)),
+        quality_output_(context.output(topics::kOdometryAllRoundQuality)) {
+    odometry_.emplace(parameters_, base_from_camera_);
+    context.input(topics::kOdometryQuality, [this](const auto& message) {
+      join_.add(*message);
+      take_joined();
+    });
+    context.input(topics::kOdometryBinocular, [this](const auto& message) {
+      join_.add(message, context_.passing_ns());
+      take_joined();
+    });
+    context.input(topics::kPanoramaPoints, [this](const auto& message) { on_points(*message); });
+    context.every(std::chrono::milliseconds(100), [this] { take_joined(); });
+  }
+
+ private:
+  static constexpr int kMaxRefused = 5;  // consecutive stereo poses, after which their clock counts as set back
+  static constexpr std::size_t kMaxWaiting = 100;
+  static constexpr double kSilence_s = 0.3, kSilent = 3.0;    // at least, and in intervals
+  static constexpr double kMean = 0.1, kMaxInterval_s = 2.0;  // weight of an interval in the usual one
+
+  void take_joined() {
+    const bool is_quality_published = join_.has_quality() || context_.has_publisher(topics::kOdometryQuality);
+    while (const auto next = join_.next(context_.passing_ns(), is_quality_published)) on_stereo(*next);
+  }
+
+  void on_stereo(const conversions::OdometryJoin::Joined& joined) {
+    const auto pose = conversions::to_isometry(joined.odometry->pose().pose());
+    if (!pose) return refuse(context_.resolved_name(topics::kOdometryBinocular), pose.reason());
+    const StereoPose stereo{conversions::stamp_ns(*joined.odometry), *pose,
+                            conversions::to_matrix(joined.odometry->pose().covariance()), joined.is_reliable};
+    if (stereo_.size() >= kMaxWaiting) stereo_.erase(stereo_.begin());
+    stereo_[stereo.stamp_ns] = joined;
+    if (last_) {
+      const double interval_s = 1e-9 * static_cast<double>(stereo.stamp_ns - conversions::stamp_ns(*last_));
+      usual_interval_s_ += kMean * (std::clamp(interval_s, 0.0, kMaxInterval_s) - usual_interval_s_);
+    }
+    last_ = joined.odometry;
+    stereo_at_ns_ = context_.passing_ns();
+    const vision::Stage stage(&timer_, "join");
+    if (!odometry_->add(stereo)) {
+      if (++refused_ < kMaxRefused) {
+        return refuse(context_.resolved_name(topics::kOdometryBinocular), "is not later than the previous one");
+      }
+      context_.log().warn("the clock of {} was set back: starting anew",
+                          context_.resolved_name(topics::kOdometryBinocular));
+      odometry_.emplace(parameters_, base_from_camera_);
+      before_.reset();
+      odometry_->add(stereo);
+    }
+    refused_ = 0;
+    publish();
+  }
+
+  void on_points(const panvo_msgs::msg::PanoramaPoints& message) {
+    const auto points = to_points(message);
+    if (!points) return refuse(context_.resolved_name(topics::kPanoramaPoints), points.reason());
+    if (!last_) return;
+    take_mounting(message.header().frame_id());
+    const vision::Stage stage(&timer_, "follow");
+    odometry_->add(*points, is_stereo_silent());
+    publish();
+  }
+
+  /// Whether stereo poses have not arrived for several times their usual interval.
+  bool is_stereo_silent() const {
+    const double silence_s = 1e-9 * static_cast<double>(context_.passing_ns() - stereo_at_ns_);
+    return silence_s > std::max(kSilence_s, kSilent * usual_interval_s_);
+  }
+
+  /// Starts anew if the position of the panoramic camera in /tf_static differs from the current one.
+  void take_mounting(const std::string& frame) {
+    const auto base_from_camera =
+        transforms_.lookup(last_->child_frame_id(), frame, "assuming the panoramic camera at the vehicle's origin");
+    if (!base_from_camera || base_from_camera->translation().isApprox(base_from_camera_, 1e-9)) return;
+    base_from_camera_ = base_from_camera->translation();
+    odometry_->set_camera(base_from_camera_);
+  }
+
+  void publish() {
+    while (const auto pose = odometry_->next()) {
+      vision::Vector6d twist = vision::Vector6d::Zero();
+      if (before_) {
+        twist = vision::se3_log(before_->odom_from_base.inverse() * pose->odom_from_base) * 1e9 /
+                static_cast<double>(pose->stamp_ns - before_->stamp_ns);
+      }
+      const auto stereo = stereo_.find(pose->stamp_ns);
+      const bool is_stereo = !pose->agreeing_share && stereo != stereo_.end();
+      const double outlier_share = is_stereo ? stereo->second.outlier_share : 1.0;
+      quality_output_.publish(to_quality(*pose, outlier_share, last_->child_frame_id()));
+      odometry_output_.publish(to_odometry(*pose, is_stereo ? *stereo->second.odometry : *last_, twist));
+      tell(*pose);
+      before_ = *pose;
+      stereo_.erase(stereo_.begin(), stereo_.upper_bound(pose->stamp_ns));
+    }
+  }
+
+  void tell(const AllRoundPose& pose) {
+    const bool is_by_panoramas = pose.agreeing_share.has_value();
+    if (is_by_panoramas && !is_by_panoramas_) {
+      context_.log().warn_throttled("blind", "the stereo camera measures no motion: panoramas continue the odometry");
+    }
+    if (!is_by_panoramas && is_by_panoramas_ && pose.is_reliable) {
+      context_.log().info_throttled("sees", "the stereo camera measures the motion again");
+    }
+    is_by_panoramas_ = is_by_panoramas;
+  }
+
+  /// Reports an unusable message in the log and in diagnostics.
+  void refuse(const std::string& topic, const std::string& reason) {
+    if (context_.rejections().add(topic, reason)) context_.log().warn("{} {}; message skipped", topic, reason);
+  }
+
+  runtime::Context& context_;
+  const Parameters parameters_;
+  conversions::StageTimer timer_;
+  conversions::TransformListener transforms_;
+  runtime::Output<nav_msgs::msg::Odometry> odometry_output_;
+  runtime::Output<panvo_msgs::msg::OdometryQuality> quality_output_;
+  Eigen::Vector3d base_from_camera_ = Eigen::Vector3d::Zero();
+  std::optional<AllRoundOdometry> odometry_;
+  conversions::OdometryJoin join_;
+  std::map<std::int64_t, conversions::OdometryJoin::Joined> stereo_;  // by stamp, of poses that are not published yet
+  std::shared_ptr<const nav_msgs::msg::Odometry> last_;
+  std::int64_t stereo_at_ns_ = 0;  // arrival
+  double usual_interval_s_ = 0.0;
+  std::optional<AllRoundPose> before_;
+  bool is_by_panoramas_ = false;
+  int refused_ = 0;
+};
+
+PANVO_REGISTER_COMPONENT(AllRoundOdometryComponent)
+
+}  // namespace panvo::all_round_odometry

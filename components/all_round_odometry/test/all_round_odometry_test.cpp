@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/all_round_odometry/all_round_odometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "park.hpp"
+
+namespace panvo::all_round_odometry {
+namespace {
+
+constexpr int kFrames = 5;  // stereo poses per panorama
+
+/// A drive through the park; the stereo odometry is exact while it is reliable, and stands still while it is not.
+class Drive : public ::testing::Test {
+ protected:
+  enum class Stereo { kGood, kBlind, kSilent, kDeceived };
+
+  /// Panoramas `from` to `to`, each after the stereo poses up to it.
+  void go(int from, int to, Stereo stereo, bool has_panoramas = true) {
+    for (int now = from; now <= to; ++now) {
+      for (int frame = 1; frame <= kFrames; ++frame) add_stereo(now - 1 + frame / static_cast<double>(kFrames), stereo);
+      if (has_panoramas) odometry_.add(park_.seen(now, Park::references(now)), stereo == Stereo::kSilent);
+      while (const auto pose = odometry_.next()) poses_.push_back(*pose);
+    }
+  }
+
+  void add_stereo(double at, Stereo stereo) {
+    if (stereo == Stereo::kSilent) return;
+    const Eigen::Isometry3d step = Park::vehicle(at - 1.0 / kFrames).inverse() * Park::vehicle(at);
+    if (stereo == Stereo::kGood) said_.odom_from_base = said_.odom_from_base * step;
+    // A lorry that drives ahead at nearly the same speed.
+    if (stereo == Stereo::kDeceived)
+      said_.odom_from_base = said_.odom_from_base * vision::se3_exp(0.1 * vision::se3_log(step));
+    said_.stamp_ns = Park::stamp_ns(0) + std::llround(at * static_cast<double>(kInterval_ns));
+    said_.is_reliable = stereo != Stereo::kBlind;
+    said_.covariance += (said_.is_reliable ? 1e-6 : 0.01) * vision::Matrix6d::Identity();
+    EXPECT_TRUE(odometry_.add(said_));
+  }
+
+  static double panorama_of(const AllRoundPose& pose) {
+    return static_cast<double>(pose.stamp_ns - Park::stamp_ns(0)) / static_cast<double>(kInterval_ns);
+  }
+
+  static double error_m(const AllRoundPose& pose) {
+    return (pose.odom_from_base.translation() - Park::vehicle(panorama_of(pose)).translation()).norm();
+  }
+
+  void expect_increasing_stamps() const {
+    for (std::size_t i = 1; i < poses_.size(); ++i) EXPECT_GT(poses_[i].stamp_ns, poses_[i - 1].stamp_ns);
+  }
+
+  Park park_;
+  AllRoundOdometry odometry_{{}, kCamera};
+  StereoPose said_;
+  std::vector<AllRoundPose> poses_;
+};
+
+TEST_F(Drive, LeavesReliableStereoOdometryAsItIs) {
+  std::vector<StereoPose> stereo;
+  for (int now = 1; now <= 20; ++now) {
+    for (int frame = 1; frame <= kFrames; ++frame) {
+      add_stereo(now - 1 + frame / static_cast<double>(kFrames), Stereo::kGood);
+      stereo.push_back(said_);
+      const auto pose = odometry_.next();
+      ASSERT_TRUE(pose) << "at once";
+      EXPECT_EQ(pose->stamp_ns, said_.stamp_ns);
+      EXPECT_EQ(pose->odom_from_base.matrix(), said_.odom_from_base.matrix());
+      EXPECT_EQ(pose->covariance, said_.covariance);
+      EXPECT_TRUE(pose->is_reliable);
+      EXPECT_FALSE(pose->agreeing_share);
+    }
+    odometry_.add(park_.seen(now, Park::references(now)), false);
+    EXPECT_FALSE(odometry_.next());
+  }
+}
+
+TEST_F(Drive, GoesOnByPanoramasWhileTheStereoCameraIsBlind) {
+  go(1, 12, Stereo::kGood);
+  const std::size_t before = poses_.size();
+  go(13, 62, Stereo::kBlind);
+  EXPECT_EQ(poses_.size(), before + 50) << "one pose per panorama";
+  for (std::size_t i = before; i < poses_.size(); ++i) {
+    EXPECT_TRUE(poses_[i].is_reliable);
+    EXPECT_TRUE(poses_[i].agreeing_share);
+  }
+  EXPECT_LT(error_m(poses_.back()), 1.0) << "2 % of 50 m";
+  const double sigma_m = vision::horizontal_sigma(poses_.back().covariance);
+  EXPECT_LT(error_m(poses_.back()), 3.0 * sigma_m);
+  EXPECT_LT(sigma_m, 2.0) << "of use";
+  const Eigen::Vector3d way = poses_.back().odom_from_base.translation() - Park::vehicle(12).translation();
+  const Eigen::Vector3d along = way.normalized(), across = along.cross(Eigen::Vector3d::UnitZ());
+  const Eigen::Matrix3d covariance = poses_.back().covariance.topLeftCorner<3, 3>();
+  EXPECT_GT(along.dot(covariance * along), across.dot(covariance * across) + std::pow(0.005 * way.norm(), 2))
+      << "the error of the scale";
+  expect_increasing_stamps();
+}
+
+TEST_F(Drive, ReturnsToTheStereoCameraWithoutAJump) {
+  go(1, 12, Stereo::kGood);
+  go(13, 22, Stereo::kBlind);
+  const double error_before_m = error_m(poses_.back());
+  go(23, 30, Stereo::kGood);
+  EXPECT_FALSE(poses_.back().agreeing_share);
+  EXPECT_TRUE(poses_.back().is_reliable);
+  EXPECT_NEAR(error_m(poses_.back()), error_before_m, 0.1);
+  EXPECT_EQ(poses_.back().stamp_ns, Park::stamp_ns(30));
+  for (const AllRoundPose& pose : poses_) EXPECT_TRUE(pose.is_reliable);
+  for (std::size_t i = 1; i < poses_.size(); ++i) {
+    EXPECT_GE(poses_[i].covariance.trace() + 1e-9, poses_[i - 1].covariance.trace()) << "grows";
+  }
+  expect_increasing_stamps();
+}
+
+TEST_F(Drive, LosesNoStereoPoseThatWaitedForAPanorama) {
+  go(1, 12, Stereo::kGood);
+  go(13, 14, Stereo::kBlind);
+  poses_.clear();
+  for (int frame = 1; frame <= kFrames + 3; ++frame) add_stereo(14.0 + frame / 5.0, Stereo::kGood);
+  odometry_.add(park_.seen(15, Park::references(15)), false);
+  while (const auto pose = odometry_.next()) poses_.push_back(*pose);
+  ASSERT_EQ(poses_.size(), 3U) << "those after the panorama, whose pose is that of the stereo pose of the same stamp";
+  EXPECT_EQ(poses_.back().stamp_ns, said_.stamp_ns);
+}
+
+TEST_F(Drive, GoesOnByPanoramasWhileTheStereoCameraIsSilent) {
+  go(1, 12, Stereo::kGood);
+  go(13, 30, Stereo::kSilent);
+  ASSERT_EQ(poses_.back().stamp_ns, Park::stamp_ns(30));
+  EXPECT_TRUE(poses_.back().is_reliable);
+  EXPECT_LT(error_m(poses_.back()), 0.5);
+}
+
+TEST_F(Drive, SaysUnreliableIfThePanoramasShowNothingEither) {
+  go(1, 12, Stereo::kGood);
+  const std::size_t before = poses_.size();
+  go(13, 20, Stereo::kBlind, false);
+  ASSERT_GT(poses_.size(), before);
+  EXPECT_EQ(poses_.size(), before + 8 * kFrames) << "none is lost";
+  for (std::size_t i = before; i < poses_.size(); ++i) EXPECT_FALSE(poses_[i].is_reliable);
+  expect_increasing_stamps();
+}
+
+TEST_F(Drive, DoesNotWaitForPanoramasIfThereAreNone) {
+  for (int i = 1; i <= 10; ++i) {
+    add_stereo(0.2 * i, i < 5 ? Stereo::kGood : Stereo::kBlind);
+    ASSERT_TRUE(odometry_.next()) << "stereo pose " << i;
+  }
+}
+
+TEST_F(Drive, GivesUpIfPanoramasFailToo) {
+  go(1, 12, Stereo::kGood);
+  go(13, 20, Stereo::kBlind);
+  ASSERT_TRUE(poses_.back().is_reliable);
+  const AllRoundPose last = poses_.back();
+  go(21, 26, Stereo::kBlind, false);
+  EXPECT_FALSE(poses_.back().is_reliable);
+  EXPECT_LT((poses_.back().odom_from_base.translation() - last.odom_from_base.translation()).norm(), 0.1)
+      << "this stereo odometry predicts standstill";
+  go(27, 40, Stereo::kGood);
+  EXPECT_TRUE(poses_.back().is_reliable);
+  expect_increasing_stamps();
+}
+
+TEST_F(Drive, FollowsThePanoramasIfAnObjectFillsTheStereoCamera) {
+  go(1, 12, Stereo::kGood);
+  go(13, 30, Stereo::kDeceived);
+  EXPECT_LT(error_m(poses_.back()), 0.6) << "15 m behind by the stereo odometry";
+  go(31, 40, Stereo::kGood);
+  EXPECT_FALSE(poses_.back().agreeing_share);
+  EXPECT_LT(error_m(poses_.back()), 0.6);
+  expect_increasing_stamps();
+}
+
+TEST_F(Drive, DoesNotBelieveAPanoramicCameraThatIsTurned) {
+  go(1, 12, Stereo::kGood);
+  const Eigen::Matrix3d turn = vision::so3_exp({0.0, 0.0, 0.3});
+  for (int now = 13; now <= 30; ++now) {
+    for (int frame = 1; frame <= kFrames; ++frame) add_stereo(now - 1 + frame / 5.0, Stereo::kGood);
+    auto seen = park_.seen(now, Park::references(now));
+    const int turned_at = 13;
+    for (PointTracks& tracks : seen.tracks) {
+      for (Sighting& sighting : tracks.sightings) {
+        sighting.now = turn * sighting.now;
+        if (tracks.from_ns >= Park::stamp_ns(turned_at)) sighting.then = turn * sighting.then;
+      }
+    }
+    seen.now_from_then = turn * seen.now_from_then;
+    odometry_.add(seen, false);
+    while (const auto pose = odometry_.next()) poses_.push_back(*pose);
+  }
+  EXPECT_FALSE(poses_.back().agreeing_share);
+  EXPECT_LT(error_m(poses_.back()), 0.05) << "as by the stereo odometry";
+}
+
+TEST_F(Drive, PassesOnPosesThatNoVehicleReachesButDoesNotUseThem) {
+  go(1, 12, Stereo::kGood);
+  StereoPose absurd = said_;
+  absurd.stamp_ns += kInterval_ns / 10;
+  absurd.odom_from_base.translation().x() += 1e4;
+  EXPECT_TRUE(odometry_.add(absurd));
+  const auto passed = odometry_.next();
+  ASSERT_TRUE(passed);
+  EXPECT_EQ(passed->odom_from_base.matrix(), absurd.odom_from_base.matrix());
+  go(13, 30, Stereo::kGood);
+  go(31, 40, Stereo::kBlind);
+  EXPECT_TRUE(poses_.back().is_reliable);
+  EXPECT_LT(error_m(poses_.back()), 0.5);
+}
+
+TEST_F(Drive, GoesOnFromAnotherOriginOfTheStereoOdometry) {
+  go(1, 12, Stereo::kGood);
+  said_.odom_from_base.translation().x() += 1e4;
+  go(13, 20, Stereo::kGood);
+  EXPECT_EQ(poses_.back().odom_from_base.matrix(), said_.odom_from_base.matrix());
+  EXPECT_EQ(poses_.size(), 20U * kFrames);
+}
+
+TEST_F(Drive, RefusesStampsThatDoNotIncrease) {
+  go(1, 2, Stereo::kGood);
+  EXPECT_FALSE(odometry_.add(said_));
+  EXPECT_FALSE(odometry_.next());
+}
+
+}  // namespace
+}  // namespace panvo::all_round_odometry
