@@ -187,6 +187,7 @@ TEST_F(SimulatedJourney, OfOptionsThatContradictEachOtherIsWrongUsage) {
   const std::vector<Refusal> refusals{
       {{"--night", "--hour", "7"}, "--night"},
       {{"--wet", "--season", "snow"}, "season 'snow' contradicts wet"},
+      {{"--rows", "--twins"}, "--twins"},
   };
   for (auto [options, named] : refusals) {
     options.insert(options.end(), {"--route", kShort, "--out", folder_ / "refused"});

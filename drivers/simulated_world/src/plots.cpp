@@ -1,40 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "plot_planning.hpp"
+
 namespace panvo::simulated_world {
 namespace {
 
-constexpr double kGapBetweenPlots_m = 3.0;
 constexpr double kProbeSpacing_m = 2.0;
 
 std::array<Eigen::Vector2d, 2> axes_of(const Plot& plot) {
   return {Eigen::Vector2d(std::cos(plot.heading_rad), std::sin(plot.heading_rad)),
           Eigen::Vector2d(-std::sin(plot.heading_rad), std::cos(plot.heading_rad))};
-}
-
-struct Wish {
-  PlotUse use = PlotUse::kTown;
-  double width_m = 0.0, depth_m = 0.0, setback_m = 0.0;
-};
-
-Wish draw_wish(PlotUse use, Random& random) {
-  switch (use) {
-    case PlotUse::kHouse:
-      return {use, random.uniform(9.0, 15.0), random.uniform(8.0, 11.0), random.uniform(4.0, 9.0)};
-    case PlotUse::kTown:
-      return {use, random.uniform(12.0, 24.0), random.uniform(10.0, 14.0), random.uniform(3.0, 6.0)};
-    case PlotUse::kInstitute:
-      return {use, random.uniform(32.0, 46.0), random.uniform(13.0, 17.0), random.uniform(5.0, 10.0)};
-    case PlotUse::kHall:
-      return {use, random.uniform(22.0, 34.0), random.uniform(16.0, 22.0), random.uniform(6.0, 11.0)};
-    case PlotUse::kOpen:
-      return {use, random.uniform(18.0, 30.0), random.uniform(12.0, 20.0), random.uniform(0.4, 1.0)};
-  }
-  return {};
 }
 
 class Planner {
@@ -108,23 +86,9 @@ class Planner {
   }
 
   bool try_to_place(const Wish& wish, const Roadside& place) {
-    PlannedPlot planned;
-    planned.use = wish.use;
-    planned.place = place;
-    const double front = kPavementWidth_m + wish.setback_m;
-    planned.plot.size = {wish.width_m, wish.depth_m};
-    planned.plot.centre = place.at(front + 0.5 * wish.depth_m);
-    // y away from the road, x to the right of it as seen from the road
-    planned.plot.heading_rad = std::atan2(-place.outwards.x(), place.outwards.y());
-    const double least = kPavementWidth_m + std::min(wish.setback_m, 3.0) - 0.3;
-    for (const auto& probe : probes_of(planned.plot)) {
-      if (site_.distance_from_kerb(probe) < least) return false;
-    }
-    for (const auto& other : plots_) {
-      if (overlap(planned.plot, other.plot, kGapBetweenPlots_m)) return false;
-    }
-    plots_.push_back(planned);
-    return true;
+    const auto planned = fitting_plot(site_, wish, place, plots_);
+    if (planned) plots_.push_back(*planned);
+    return planned.has_value();
   }
 
   const Site& site_;
@@ -205,6 +169,44 @@ bool overlap(const Plot& first, const Plot& second, double margin_m) {
   return true;
 }
 
-std::vector<PlannedPlot> plan_plots(const Site& site) { return Planner(site).plan(); }
+Wish draw_wish(PlotUse use, Random& random) {
+  switch (use) {
+    case PlotUse::kHouse:
+      return {use, random.uniform(9.0, 15.0), random.uniform(8.0, 11.0), random.uniform(4.0, 9.0)};
+    case PlotUse::kTown:
+      return {use, random.uniform(12.0, 24.0), random.uniform(10.0, 14.0), random.uniform(3.0, 6.0)};
+    case PlotUse::kInstitute:
+      return {use, random.uniform(32.0, 46.0), random.uniform(13.0, 17.0), random.uniform(5.0, 10.0)};
+    case PlotUse::kHall:
+      return {use, random.uniform(22.0, 34.0), random.uniform(16.0, 22.0), random.uniform(6.0, 11.0)};
+    case PlotUse::kOpen:
+      return {use, random.uniform(18.0, 30.0), random.uniform(12.0, 20.0), random.uniform(0.4, 1.0)};
+  }
+  return {};
+}
+
+std::optional<PlannedPlot> fitting_plot(const Site& site, const Wish& wish, const Roadside& place,
+                                        const std::vector<PlannedPlot>& others) {
+  PlannedPlot planned;
+  planned.use = wish.use;
+  planned.place = place;
+  const double front = kPavementWidth_m + wish.setback_m;
+  planned.plot.size = {wish.width_m, wish.depth_m};
+  planned.plot.centre = place.at(front + 0.5 * wish.depth_m);
+  // y away from the road, x to the right of it as seen from the road
+  planned.plot.heading_rad = std::atan2(-place.outwards.x(), place.outwards.y());
+  const double least = kPavementWidth_m + std::min(wish.setback_m, 3.0) - 0.3;
+  for (const auto& probe : probes_of(planned.plot)) {
+    if (site.distance_from_kerb(probe) < least) return std::nullopt;
+  }
+  for (const auto& other : others) {
+    if (overlap(planned.plot, other.plot, kGapBetweenPlots_m)) return std::nullopt;
+  }
+  return planned;
+}
+
+std::vector<PlannedPlot> plan_plots(const Site& site) {
+  return site.parameters.twins ? plan_twins(site) : Planner(site).plan();
+}
 
 }  // namespace panvo::simulated_world

@@ -45,6 +45,7 @@ struct PlannedPlot {
   Plot plot;  ///< x along the road, to the right as seen from it; y away from it
   PlotUse use = PlotUse::kTown;
   Roadside place;
+  std::optional<std::uint64_t> design{};  ///< equal for twins; nullopt: its own
 };
 
 /// Plans plots along all roads, without overlap with roads or other plots.

@@ -55,6 +55,51 @@ TEST(Buildings, OfOneUseAreAlikeInRows) {
   for (const auto& [use, of_use] : corners) EXPECT_EQ(of_use.size(), 1u) << static_cast<int>(use);
 }
 
+/// How many of the plots around the western and eastern end of the crossroads have a twin a quarter turn further, of all
+/// of them; the buildings of twins must be equal.
+std::pair<int, int> twins_at_ends(const Site& site) {
+  Scene scene;
+  scene.palette = site.palette;
+  const auto plots = build_buildings(site, scene);
+  int twins = 0, all = 0;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    if (std::abs(plots[i].centre.x()) < 75.0) continue;
+    const Eigen::Vector2d turned(-plots[i].centre.y(), plots[i].centre.x());
+    ++all;
+    for (std::size_t j = 0; j < plots.size(); ++j) {
+      // the roads differ in width
+      if ((turned - plots[j].centre).norm() > 3.0 || plots[i].size != plots[j].size) continue;
+      ++twins;
+      EXPECT_EQ(scene.fixed[i].vertices.size(), scene.fixed[j].vertices.size());
+    }
+  }
+  return {twins, all};
+}
+
+TEST(Buildings, AreTheSameAtTwinJunctions) {
+  Site site = crossroads();
+  EXPECT_EQ(twins_at_ends(site).first, 0);
+  site.parameters.twins = true;
+  const auto [twins, all] = twins_at_ends(site);
+  EXPECT_GE(all, 4);
+  EXPECT_GE(twins, 0.8 * all);  // some are shifted further
+}
+
+TEST(Buildings, OfCampusJunctionsHaveTwinsAtOneOtherJunction) {
+  const auto roads = campus_roads(1);
+  SiteParameters parameters;
+  parameters.twins = true;
+  const Site site(parameters, roads, crossroads().palette);
+  std::map<std::uint64_t, int> count;
+  for (const auto& planned : plan_plots(site)) ++count[planned.design.value()];
+  int twins = 0;
+  for (const auto& [design, number] : count) {
+    EXPECT_LE(number, 2) << design;
+    if (number == 2) twins += 2;
+  }
+  EXPECT_GT(twins, 0.75 * static_cast<double>(plan_plots(site).size()));
+}
+
 TEST(Plots, ArePlannedAlongRoadsButNeitherOnThemNorOnEachOther) {
   const Site site = crossroads();
   const auto planned = plan_plots(site);

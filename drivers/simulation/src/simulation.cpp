@@ -67,9 +67,10 @@ SensorParameters at_night(SensorParameters sensor) {
 
 Simulation::Simulation(const SimulationParameters& parameters) : parameters_(parameters) {
   // Everything that may be rejected comes before building the campus, which takes time.
-  const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, day, rows, assets, start_s, duration_s,
-               stereo, panorama, stamp, quality] = parameters_;
+  const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, day, rows, twins, assets, start_s,
+               duration_s, stereo, panorama, stamp, quality] = parameters_;
   check_day(day);
+  if (rows && twins) throw std::invalid_argument("rows contradict twins: choose one of them");
   const std::uint64_t own = day.seed.value_or(seed);
   const auto path = drive(simulated_world::campus_roads(seed), route, day.left_m);
   motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness), motion, own);
@@ -99,6 +100,7 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
                                            .hilliness = hilliness,
                                            .weak_texture = effects.weak_texture,
                                            .rows = rows,
+                                           .twins = twins,
                                            .season = day.season,
                                            .wet = day.wet},
                                           assets);

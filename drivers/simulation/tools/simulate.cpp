@@ -100,7 +100,9 @@ void describe_options(CLI::App& app, Options& options) {
   app.add_option("--left", s.day.left_m, "drive that far to the left of the lane's middle, m")
       ->check(CLI::Range(-1.0, 1.0))
       ->capture_default_str();
-  app.add_flag("--rows", s.rows, "rows of equal buildings: hard to tell apart");
+  auto* rows = app.add_flag("--rows", s.rows, "rows of equal buildings: hard to tell apart");
+  app.add_flag("--twins", s.twins, "pairs of junctions with the same buildings: easily mistaken for each other")
+      ->excludes(rows);
   app.add_option("--vibration", s.motion.vibration, "scale of the vehicle's vibration; 0: none")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();

@@ -129,10 +129,11 @@ std::vector<Plot> build_buildings(const Site& site, Scene& scene) {
   for (const auto& planned : plan_plots(site)) {
     ++number;
     if (planned.use == PlotUse::kOpen) continue;  // left to build_furniture()
-    const std::uint64_t design = site.parameters.rows ? static_cast<std::uint64_t>(planned.use) : number;
+    const std::uint64_t design =
+        site.parameters.rows ? static_cast<std::uint64_t>(planned.use) : planned.design.value_or(number);
     Random own = random.part(design);
     // sometimes a twin of the neighbour
-    const bool is_twin = !site.parameters.rows && planned.use == last_use && own.chance(0.22);
+    const bool is_twin = !site.parameters.rows && !planned.design && planned.use == last_use && own.chance(0.22);
     if (!is_twin) style_number = design;
     last_use = planned.use;
     FacadeStyle style =

@@ -18,6 +18,7 @@ struct SiteParameters {
   double hilliness = 0.0;     ///< see Terrain
   bool weak_texture = false;  ///< applied to the junctions marked in the network
   bool rows = false;          ///< all buildings of one use are alike in every detail, at equal distances
+  bool twins = false;         ///< junctions go in pairs with the same buildings along their roads; not with rows
   Season season = Season::kSummer;
   bool wet = false;  ///< after rain: water on roads and pavements
 };

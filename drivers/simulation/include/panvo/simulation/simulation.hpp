@@ -30,6 +30,7 @@ struct SimulationParameters {
   double calibration_error = 0.0;  ///< of the published stereo calibration; 1: a good one after months of driving
   Day day;
   bool rows = false;             ///< the campus has rows of equal buildings (see SiteParameters)
+  bool twins = false;            ///< the campus has pairs of junctions with the same buildings
   std::filesystem::path assets;  ///< photographs in place of painted textures; empty: none
   double start_s = 0.0;          ///< start time on the journey
   double duration_s = 0.0;       ///< duration; 0: to the end
