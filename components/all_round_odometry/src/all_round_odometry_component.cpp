@@ -85,14 +85,16 @@ class AllRoundOdometryComponent final : public runtime::Component {
     if (!last_) return;
     take_mounting(message.header().frame_id());
     const vision::Stage stage(&timer_, "follow");
-    odometry_->add(*points, is_stereo_silent());
+    odometry_->add(*points, is_stereo_silent(points->stamp_ns));
     publish();
   }
 
-  /// Whether stereo poses have not arrived for several times their usual interval.
-  bool is_stereo_silent() const {
+  /// Whether stereo poses have not arrived for several times their usual interval, and are late by their stamps, too:
+  /// after a pause of the whole process, both kinds of messages wait, in any order.
+  bool is_stereo_silent(std::int64_t panorama_ns) const {
+    const double late_s = 1e-9 * static_cast<double>(panorama_ns - conversions::stamp_ns(*last_));
     const double silence_s = 1e-9 * static_cast<double>(context_.passing_ns() - stereo_at_ns_);
-    return silence_s > std::max(kSilence_s, kSilent * usual_interval_s_);
+    return std::min(late_s, silence_s) > std::max(kSilence_s, kSilent * usual_interval_s_);
   }
 
   /// Starts anew if the position of the panoramic camera in /tf_static differs from the current one.

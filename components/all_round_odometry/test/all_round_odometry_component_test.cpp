@@ -117,6 +117,17 @@ TEST_F(AllRoundOdometryComponentTest, ContinuesByPanoramasAndSaysSo) {
   EXPECT_TRUE(harness_.log_contains("the stereo camera measures the motion again"));
 }
 
+TEST_F(AllRoundOdometryComponentTest, ContinuesByPanoramasWhileTheStereoOdometryIsSilent) {
+  publish_mounting(kCamera);
+  drive(1, 12, true);
+  publish_points(13);
+  EXPECT_EQ(odometry_.back()->header().stamp(), conversions::to_stamp(Park::stamp_ns(12))) << "it may only be late";
+  for (int now = 14; now <= 20; ++now) publish_points(now);
+  EXPECT_EQ(odometry_.back()->header().stamp(), conversions::to_stamp(Park::stamp_ns(20)));
+  EXPECT_TRUE(quality_.back()->reliable());
+  EXPECT_LT(error_m(20), 0.2);
+}
+
 TEST_F(AllRoundOdometryComponentTest, UsesThePositionOfTheCameraInTfStatic) {
   publish_mounting(kCamera - Eigen::Vector3d(3.0, 0.0, 0.0));  // not where it is
   drive(1, 12, true);
