@@ -181,6 +181,13 @@ class Output(unittest.TestCase):
         expected += "\n" + "=" * 80 + "\nMSG: a_msgs/Inner\nbyte level\nbool on\n"
         self.assertEqual(definition(self.messages["a_msgs/msg/Outer"], self.messages), expected)
 
+    def test_constants_of_a_field_precede_it(self):
+        lamp = parse("""module Thing_Constants { const uint8 ON = 1; const octet LOW = 0; const uint8 OFF = 2; };
+            struct Thing { double volt; uint8 state; // one of the constants
+            octet level; };""")
+        expected = "byte LOW=0\nfloat64 volt\nuint8 ON=1\nuint8 OFF=2\nuint8 state  # one of the constants\nbyte level\n"
+        self.assertEqual(definition(lamp, {}), expected)
+
     def test_bounded_sequence_is_in_ros2_notation_and_has_a_hash_of_its_own(self):
         bounded = parse("struct Thing { sequence<double, 1> a; };")
         self.assertIn("float64[<=1] a\n", definition(bounded, {}))

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -79,10 +80,11 @@ const MessageType* find(std::string name) {
   return find_message_type(name);
 }
 
-/// A definition without the parts that may differ: comments, white space, defaults and package names.
+/// A definition without the parts that may differ: comments, white space, defaults, package names, and where constants
+/// stand: they come first.
 std::string normalised(const std::string& definition) {
   std::istringstream lines(definition);
-  std::string line, package, result;
+  std::string line, fields, result;
   while (std::getline(lines, line)) {
     line.erase(std::min(line.find('#'), line.size()));
     std::istringstream words(line);
@@ -90,10 +92,12 @@ std::string normalised(const std::string& definition) {
     if (!(words >> type >> name)) {
       continue;
     }
+    if (type == "MSG:") result += std::exchange(fields, "");
     const std::size_t slash = type.find('/');
-    result += (slash == std::string::npos ? type : type.substr(slash + 1)) + " " + name + "\n";
+    const bool is_before_fields = type == "MSG:" || name.find('=') != std::string::npos;
+    (is_before_fields ? result : fields) += type.substr(slash == std::string::npos ? 0 : slash + 1) + " " + name + "\n";
   }
-  return result;
+  return result + fields;
 }
 
 /// Whether `later` has all lines of `earlier` in the same order, possibly with new lines between them.

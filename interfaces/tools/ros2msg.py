@@ -27,12 +27,25 @@ def _value(constant: idl.Constant) -> str:
     return constant.value.lower() if constant.type == "boolean" else constant.value
 
 
+def _constants_of(field: idl.Field, message: idl.Message) -> list[idl.Constant]:
+    """Constants that the field's comment refers to. Viewers show their names for the values of the field that follows them."""
+    if not field.comment.startswith("one of the constants"):
+        return []
+    return [constant for constant in message.constants if constant.type == field.type.base]
+
+
 def _own_definition(message: idl.Message) -> str:
     lines = [f"# {line}" for line in message.comment.splitlines()]
-    lines += [f"{_NAMES.get(constant.type, constant.type)} {constant.name}={_value(constant)}" for constant in message.constants]
-    for field in message.fields:
+
+    def add(constants: list[idl.Constant]) -> None:
+        lines.extend(f"{_NAMES.get(constant.type, constant.type)} {constant.name}={_value(constant)}" for constant in constants)
+
+    of_fields = [_constants_of(field, message) for field in message.fields]
+    add([constant for constant in message.constants if not any(constant in constants for constants in of_fields)])
+    for field, constants in zip(message.fields, of_fields):
         if field.name == idl.PLACEHOLDER:
             continue
+        add(constants)
         comment = f"  # {field.comment}" if field.comment else ""
         default = f" {field.default}" if field.default else ""
         lines.append(f"{_type(field.type, message.package)} {field.name}{default}{comment}")
