@@ -121,6 +121,7 @@ PlaceScene::Marker PlaceScene::sightings() const {
     lines.points().push_back(place->second.map_from_base.position());
     lines.colors().resize(lines.points().size(), colour_of(sighting.outcome));
   }
+  if (lines.points().empty()) lines.action(kinds::DELETE);  // viewers complain about lines without points
   return lines;
 }
 

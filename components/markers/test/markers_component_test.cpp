@@ -172,6 +172,7 @@ TEST_F(MarkersComponent, IsSilentWithoutChange) {
   play();
   ASSERT_THAT(scenes_, SizeIs(2));
   EXPECT_THAT(scenes_[0]->markers(), SizeIs(4)) << "spheres, headings, sightings, one number";
+  EXPECT_EQ(marker("sightings").action(), visualization_msgs::msg::Marker_Constants::DELETE) << "there are none";
   EXPECT_THAT(scenes_[1]->markers(), SizeIs(5));
 }
 
