@@ -39,6 +39,14 @@ std::string optional_text(const json& object, const char* name) {
   return found == object.end() || found->is_null() ? "" : text_of(*found);
 }
 
+/// Viewers may leave out the "msg" of "package/msg/Type".
+std::string type_name_of(const json& value) {
+  std::string name = text_of(value);
+  const auto slash = name.find('/');
+  if (slash != std::string::npos && name.find('/', slash + 1) == std::string::npos) name.insert(slash, "/msg");
+  return name;
+}
+
 /// Converts each element of a list.
 template <class Convert>
 auto list_of(const json& object, const char* name, Convert convert) {
@@ -117,7 +125,7 @@ ClientRequest request_of(const json& object) {
   if (operation == "advertise") {
     return Advertise{list_of(object, "channels", [](const json& one) {
       return Advertise::One{id_of(member(object_of(one), "id")), text_of(member(one, "topic")),
-                            text_of(member(one, "encoding")), text_of(member(one, "schemaName"))};
+                            text_of(member(one, "encoding")), type_name_of(member(one, "schemaName"))};
     })};
   }
   if (operation == "unadvertise") return Unadvertise{list_of(object, "channelIds", id_of)};

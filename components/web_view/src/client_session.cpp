@@ -54,7 +54,7 @@ void ClientSession::welcome(bool has_time) {
   if (settings.allow_control) capabilities.insert(capabilities.end(), {"clientPublish", "services"});
   if (!settings.assets.empty()) capabilities.emplace_back("assets");
   if (has_time) capabilities.emplace_back("time");
-  sender_.send_text(server_info("panvo", capabilities, view_.session()));
+  sender_.send_text(server_info("panvo", capabilities, view_.session() + (has_time ? "-timed" : "")));
 }
 
 void ClientSession::tell(const ChannelTable::Change& change, std::vector<std::shared_ptr<void>>& ended) {
@@ -64,13 +64,18 @@ void ClientSession::tell(const ChannelTable::Change& change, std::vector<std::sh
   const std::lock_guard lock(mutex_);
   std::erase_if(subscriptions_, [&](auto& entry) {
     if (!removed.contains(entry.second.channel)) return false;
+    if (ended_.size() < kMaxSubscriptions) ended_.insert(entry.first);
     ended.push_back(std::move(entry.second.reading));
     return true;
   });
 }
 
 void ClientSession::tell_time(std::int64_t time_ns) {
-  if (has_time_) sender_.send_binary(time_frame(time_ns));
+  if (!has_time_) {
+    welcome(true);
+    sender_.send_text(web_view::advertise({}));  // on this, Lichtblick takes the types of all channels into the session
+  }
+  sender_.send_binary(time_frame(time_ns));
 }
 
 void ClientSession::tell_drops() {
@@ -130,6 +135,7 @@ void ClientSession::subscribe(const Subscribe::One& wanted) {
   auto reading = view_.topics().read(source.value_or(*topic), send);
   {
     const std::lock_guard lock(mutex_);
+    ended_.erase(wanted.id);
     subscriptions_.emplace(wanted.id, Subscription{wanted.channel, std::move(reading)});
   }
   // The channel may have been removed meanwhile, before the subscription was there to be ended with it.
@@ -146,6 +152,8 @@ void ClientSession::handle(const Unsubscribe& request) {
   for (const std::uint32_t id : request.subscriptions) {
     auto reading = take_subscription(id);
     if (!reading) {
+      const std::lock_guard lock(mutex_);
+      if (ended_.erase(id) > 0) continue;  // viewers unsubscribe from channels that were removed
       complain("unknown subscription " + std::to_string(id));
       continue;
     }

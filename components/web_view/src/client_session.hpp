@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -41,6 +42,7 @@ class ClientSession final : public WebServer::Session {
   void tell(const ServiceTable::Change& change);
   /// To a client that asked for the graph: what has changed since it was told of it.
   void tell(const ConnectionGraph& graph);
+  /// If the client was welcomed without a time, it begins a session anew, as its clock was another one.
   void tell_time(std::int64_t time_ns);
   /// A warning if messages were dropped since the last one, at most every 10 s.
   void tell_drops();
@@ -85,14 +87,15 @@ class ClientSession final : public WebServer::Session {
   FrameAssembly assembly_;
   Sender sender_;
   std::map<std::uint32_t, Publication> publications_;  // by id; used by the connection's thread only
-  bool has_time_ = false;
+  std::atomic<bool> has_time_{false};
   std::uint64_t told_drops_ = 0;
   std::chrono::steady_clock::time_point drops_told_at_{};
-  mutable std::mutex mutex_;  // guards the next five; not held while a topic is opened or closed
+  mutable std::mutex mutex_;  // guards the next six; not held while a topic is opened or closed
   bool wants_graph_ = false;
   ConnectionGraph told_graph_;
   bool watches_all_parameters_ = false;
   std::set<std::string> watched_parameters_;
+  std::set<std::uint32_t> ended_;                        // subscriptions that ended with their channel
   std::map<std::uint32_t, Subscription> subscriptions_;  // by id; their callbacks use the sender
   std::shared_ptr<void> parameter_events_;               // so does its callback
   SlowRequests slow_requests_;                           // last: they use the members above

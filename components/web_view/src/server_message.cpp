@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server_message.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -13,6 +14,7 @@ using nlohmann::json;
 
 constexpr const char* kEncoding = "cdr";
 constexpr const char* kSchemaEncoding = "ros2msg";
+constexpr const char* kRosDistro = "jazzy";  // that of the standard messages
 
 /// Names of other processes may be invalid UTF-8, which is replaced.
 std::string serialized(const json& object) { return object.dump(-1, ' ', false, json::error_handler_t::replace); }
@@ -68,11 +70,15 @@ std::vector<std::uint8_t> asset(std::uint32_t request, std::uint8_t status, std:
 }  // namespace
 
 std::string server_info(std::string_view name, const std::vector<std::string>& capabilities, std::string_view session) {
+  // Lichtblick publishes poses only to a server that names a distribution of ROS. It then also has types of Humble, and
+  // complains if those of Jazzy have more constants; a client that may only read is spared this.
+  json metadata = json::object();
+  if (std::ranges::find(capabilities, "clientPublish") != capabilities.end()) metadata["ROS_DISTRO"] = kRosDistro;
   return serialized({{"op", "serverInfo"},
                      {"name", name},
                      {"capabilities", capabilities},
                      {"supportedEncodings", {kEncoding}},
-                     {"metadata", json::object()},
+                     {"metadata", metadata},
                      {"sessionId", session}});
 }
 

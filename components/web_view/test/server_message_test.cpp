@@ -16,8 +16,10 @@ using nlohmann::json;
 TEST(ServerMessage, PresentsTheServer) {
   EXPECT_EQ(json::parse(server_info("panvo", {"clientPublish"}, "12")), json::parse(R"({
     "op": "serverInfo", "name": "panvo", "capabilities": ["clientPublish"], "supportedEncodings": ["cdr"],
-    "metadata": {}, "sessionId": "12"})"));
-  EXPECT_EQ(json::parse(server_info("panvo", {}, ""))["capabilities"], json::array());
+    "metadata": {"ROS_DISTRO": "jazzy"}, "sessionId": "12"})"));
+  const json reading_only = json::parse(server_info("panvo", {}, ""));
+  EXPECT_EQ(reading_only["capabilities"], json::array());
+  EXPECT_EQ(reading_only["metadata"], json::object());
 }
 
 TEST(ServerMessage, OffersChannels) {

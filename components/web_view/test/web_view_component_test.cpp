@@ -107,8 +107,15 @@ TEST_F(WebView, TellsOfTopicsThatComeAndGo) {
     return std::make_unique<Late>(context);
   });
   const auto channel = channel_of(client, "/odometry/enhanced");
+  subscribe(client, 3, channel);
+  settle(client);
   container_->unload("late");
   EXPECT_THAT(next_text(client, "unadvertise")["channelIds"], Contains(channel));
+  const std::string unsubscribe = R"({"op":"unsubscribe","subscriptionIds":[3]})";
+  client.send_text(unsubscribe);  // has already ended
+  settle(client);
+  client.send_text(unsubscribe);
+  EXPECT_EQ(next_status(client), "unknown subscription 3");
   subscribe(client, 1, channel);
   EXPECT_EQ(next_status(client), "subscription 1: unknown channel " + std::to_string(channel));
 }

@@ -180,16 +180,24 @@ TEST_F(WebViewNodes, TellTheTimeOfASimulation) {
     return std::make_unique<runtime::Component>();
   });
   WebSocketClient early(port());  // from now on the clock is read
-  EXPECT_THAT(next_text(early, "serverInfo")["capabilities"], Not(Contains("time")));
+  const json untimed = next_text(early, "serverInfo");
+  EXPECT_THAT(untimed["capabilities"], Not(Contains("time")));
+  next_text(early, "advertise");
   rosgraph_msgs::msg::Clock now;
   now.clock().sec(1);
   clock->publish(now);
   WebSocketClient client(port());
-  EXPECT_THAT(next_text(client, "serverInfo")["capabilities"], Contains("time"));
+  const json timed = next_text(client, "serverInfo");
+  EXPECT_THAT(timed["capabilities"], Contains("time"));
   const std::vector<std::uint8_t> second{0x00, 0xca, 0x9a, 0x3b, 0, 0, 0, 0};  // 1e9 ns
   auto frame = next_message(client);
   EXPECT_EQ(frame[0], 2);
   EXPECT_EQ(std::vector<std::uint8_t>(frame.begin() + 1, frame.end()), second);
+  // Who came before begins anew with the time.
+  EXPECT_EQ(next_text(early, "serverInfo"), timed);
+  EXPECT_NE(timed["sessionId"], untimed["sessionId"]);
+  EXPECT_EQ(next_text(early, "advertise")["channels"], json::array());
+  EXPECT_EQ(next_message(early), frame);
   // Messages have the same clock.
   subscribe(client, 7, channel_of(client, "/odometry/binocular"));
   settle(client);
