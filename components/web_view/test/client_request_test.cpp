@@ -42,9 +42,9 @@ TEST(ClientRequest, ReadsWhatAClientPublishes) {
   EXPECT_EQ(request.channels[0].schema_name, "geometry_msgs/msg/PoseWithCovarianceStamped");
   for (const auto& [written, meant] :
        {std::pair("geometry_msgs/PointStamped", "geometry_msgs/msg/PointStamped"), std::pair("Odd", "Odd")}) {
-    const auto short_name = std::get<Advertise>(
-        parse_text(std::string(R"({"op":"advertise","channels":[{"id":2,"topic":"/t","encoding":"cdr","schemaName":")") +
-                   written + "\"}]}"));
+    const auto short_name = std::get<Advertise>(parse_text(
+        std::string(R"({"op":"advertise","channels":[{"id":2,"topic":"/t","encoding":"cdr","schemaName":")") + written +
+        "\"}]}"));
     EXPECT_EQ(short_name.channels.at(0).schema_name, meant);
   }
   EXPECT_THAT(std::get<Unadvertise>(parse_text(R"({"op":"unadvertise","channelIds":[2]})")).channels,
