@@ -6,24 +6,24 @@
 #include <iterator>
 #include <utility>
 
+#include "panvo/vision/reach.hpp"
+#include "panvo/vision/seconds.hpp"
 #include "panvo/vision/step_covariance.hpp"
 
 namespace panvo::all_round_odometry {
 namespace {
 
-constexpr double kSecond_ns = 1e9;
 constexpr double kHistory_s = 6.0;  // longer than a panorama serves as reference
 constexpr double kMaxGap_s = 0.5;   // between two stereo poses: a vehicle may turn within a longer one
-constexpr double kMaxSpeed = 70.0;  // m/s: faster is no vehicle
-constexpr double kSlack_m = 5.0;    // for jitter of the stamps
-constexpr int kMaxUnreachable = 5;  // consecutive poses, after which the stereo odometry has another origin
+constexpr double kMaxSpeed = 70.0;  // m/s: faster than any vehicle
+constexpr int kMaxUnreachable = 5;  // consecutive poses: the stereo odometry was restarted with another origin
 // Share of the points that agree with the stereo odometry: it is usually above 0.8. Fewer contradict it, if clearly more
 // agree on another motion.
 constexpr double kContradicted = 0.6, kClearly = 0.25;
 constexpr double kAcceleration = 1.5, kTurnAcceleration = 0.5;  // m/s^2 and rad/s^2, usual for a vehicle
 constexpr std::size_t kMaxStereo = 2000, kMaxPanoramas = 50;
 
-double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
+using vision::seconds;
 
 }  // namespace
 
@@ -50,13 +50,13 @@ bool AllRoundOdometry::add(const StereoPose& stereo) {
   return true;
 }
 
-/// Whether no vehicle gets to a pose from the one before. It is passed on as it is, because whoever reads it may know the
-/// reason. Several in a row are a stereo odometry that was started anew.
+/// Whether no vehicle gets to a pose from the one before. Such a pose is passed on unchanged: its reader may know the
+/// reason. Several in a row mean that the stereo odometry was restarted.
 bool AllRoundOdometry::is_unreachable(const StereoPose& stereo) {
   if (stereo_.empty()) return false;
   const StereoPose& before = stereo_.back();
-  const double way_m = (stereo.odom_from_base.translation() - before.odom_from_base.translation()).norm();
-  if (way_m <= kSlack_m + kMaxSpeed * seconds(before.stamp_ns, stereo.stamp_ns)) {
+  if (vision::is_within_reach(before.odom_from_base, stereo.odom_from_base, seconds(before.stamp_ns, stereo.stamp_ns),
+                              kMaxSpeed)) {
     unreachable_ = 0;
     return false;
   }
@@ -112,8 +112,8 @@ void AllRoundOdometry::process(const PanoramaPoints& panorama) {
 }
 
 /// Whether the stereo odometry followed something else, such as a lorry that fills its view: the points on all sides
-/// show another motion, which goes on steadily. If it is the motion in the panoramas that changed abruptly, their camera
-/// was turned.
+/// show another motion, and a steadier one. If the motion in the panoramas changed abruptly instead, their camera was
+/// turned.
 bool AllRoundOdometry::is_contradicted(const PanoramaPoints& panorama, const Eigen::Isometry3d& step,
                                        std::int64_t before_ns) const {
   const auto share = motion_.agreeing_share(panorama, step);
@@ -181,7 +181,7 @@ void AllRoundOdometry::return_to_stereo(std::int64_t stamp_ns) {
   emit_held();
 }
 
-/// Nothing has measured the motion for too long: goes on with what the stereo odometry says.
+/// Nothing has measured the motion for too long: continues with the poses of the stereo odometry.
 void AllRoundOdometry::give_up() {
   if (blind_) {
     // The motion since the last panorama is that of the stereo odometry, if that was not silent.
@@ -229,8 +229,7 @@ auto AllRoundOdometry::blind_pose() const -> Pose {
 
 /// Index of the first stereo pose not before a time.
 std::size_t AllRoundOdometry::first_from(std::int64_t stamp_ns) const {
-  const auto found = std::lower_bound(stereo_.begin(), stereo_.end(), stamp_ns,
-                                      [](const StereoPose& pose, std::int64_t at_ns) { return pose.stamp_ns < at_ns; });
+  const auto found = std::ranges::lower_bound(stereo_, stamp_ns, {}, &StereoPose::stamp_ns);
   return static_cast<std::size_t>(std::distance(stereo_.begin(), found));
 }
 
@@ -255,8 +254,7 @@ std::optional<Eigen::Isometry3d> AllRoundOdometry::measured(std::int64_t from_ns
     if (!stereo_[i].is_reliable || seconds(stereo_[i - 1].stamp_ns, stereo_[i].stamp_ns) > kMaxGap_s)
       return std::nullopt;
   }
-  const Eigen::Isometry3d step = from->odom_from_base.inverse() * to->odom_from_base;
-  return step;
+  return from->odom_from_base.inverse() * to->odom_from_base;
 }
 
 }  // namespace panvo::all_round_odometry

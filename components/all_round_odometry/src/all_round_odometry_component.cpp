@@ -69,7 +69,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
       if (++refused_ < kMaxRefused) {
         return refuse(context_.resolved_name(topics::kOdometryBinocular), "is not later than the previous one");
       }
-      context_.log().warn("the clock of {} was set back: starting anew",
+      context_.log().warn("the clock of {} was set back: restarting",
                           context_.resolved_name(topics::kOdometryBinocular));
       odometry_.emplace(parameters_, base_from_camera_);
       before_.reset();
@@ -97,7 +97,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
     return std::min(late_s, silence_s) > std::max(kSilence_s, kSilent * usual_interval_s_);
   }
 
-  /// Starts anew if the position of the panoramic camera in /tf_static differs from the current one.
+  /// Learns distances again if the position of the panoramic camera in /tf_static differs from the current one.
   void take_mounting(const std::string& frame) {
     const auto base_from_camera =
         transforms_.lookup(last_->child_frame_id(), frame, "assuming the panoramic camera at the vehicle's origin");

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLeastWay_m = 0.3;     // at standstill, distances are not learned anyway
 constexpr int kMinAgreeing = 20;        // points: fewer may agree by chance
 constexpr double kMinShare = 0.25;      // of the points; the rest are moving objects and wrong distances
-constexpr double kMaxWaySigma_m = 0.5;  // of a step: more is no measurement
+constexpr double kMaxWaySigma_m = 0.5;  // of a step: a larger one is of no use
 constexpr std::ptrdiff_t kEnough = 40;  // points of known distance for the scale
 constexpr double kKnown = 0.01;         // share of the variance of a point of which nothing is known
 constexpr double kContradicts = 4.0;    // standard deviations
@@ -53,7 +53,7 @@ std::optional<double> PanoramicMotion::agreeing_share(const PanoramaPoints& poin
   for (const PointTracks& tracks : points.tracks) {
     const auto reference = std::ranges::find(references_, tracks.from_ns, &Reference::stamp_ns);
     if (reference == references_.end()) continue;
-    const Eigen::Isometry3d then_from_now = reference->local_from_camera.inverse() * local_from_now;
+    const Eigen::Isometry3d then_from_now = reference->camera_from_local * local_from_now;
     for (const Sighting& sighting : tracks.sightings) {
       const auto point = reference->points.find(sighting.id);
       if (point == reference->points.end() || !is_known(point->second.inverse)) continue;
@@ -112,7 +112,7 @@ std::vector<KnownSighting> PanoramicMotion::known_sightings(const PanoramaPoints
       const auto point = reference->points.find(sighting.id);
       InverseDistance inverse = point == reference->points.end() ? InverseDistance{} : point->second.inverse;
       if (reference->generation > leading) inverse.variance += InverseDistance{}.variance;
-      known.push_back({&sighting, inverse, &reference->local_from_camera});
+      known.push_back({&sighting, inverse, &reference->camera_from_local});
     }
   }
   return known;
@@ -124,7 +124,7 @@ Eigen::Isometry3d PanoramicMotion::start_of_search(const PanoramaPoints& points,
   Eigen::Isometry3d start = local_from_last_ * camera_motion(expected_before_from_now);
   const auto reference = std::ranges::find(references_, points.tracks.front().from_ns, &Reference::stamp_ns);
   if (reference != references_.end()) {
-    start.linear() = reference->local_from_camera.linear() * points.now_from_then.transpose();
+    start.linear() = reference->camera_from_local.linear().transpose() * points.now_from_then.transpose();
   }
   return start;
 }
@@ -141,7 +141,7 @@ void PanoramicMotion::rank_new_reference(int leading, const PanoramicStep& step)
 
 /// Whether the points are those of a reference whose camera pose is known.
 bool PanoramicMotion::goes_on(const PanoramaPoints& points) const {
-  return last_ns_ && std::any_of(points.tracks.begin(), points.tracks.end(), [this](const PointTracks& tracks) {
+  return last_ns_ && std::ranges::any_of(points.tracks, [this](const PointTracks& tracks) {
            return tracks.from_ns == *last_ns_ ||
                   std::ranges::find(references_, tracks.from_ns, &Reference::stamp_ns) != references_.end();
          });
@@ -157,7 +157,7 @@ int PanoramicMotion::leading_generation(const PanoramaPoints& points) const {
     generation = reference.generation;
     for (const PointTracks& tracks : points.tracks) {
       if (tracks.from_ns != reference.stamp_ns) continue;
-      known += std::count_if(tracks.sightings.begin(), tracks.sightings.end(), [&](const Sighting& sighting) {
+      known += std::ranges::count_if(tracks.sightings, [&](const Sighting& sighting) {
         const auto point = reference.points.find(sighting.id);
         return point != reference.points.end() && is_known(point->second.inverse);
       });
@@ -166,14 +166,15 @@ int PanoramicMotion::leading_generation(const PanoramaPoints& points) const {
   return generation;
 }
 
-/// Forgets references that are no longer tracked. The last panorama becomes one, if points refer to it.
+/// Removes references that are no longer tracked. The last panorama becomes a reference if points refer to it.
 void PanoramicMotion::take_references(const PanoramaPoints& points) {
   const auto tracks_of = [&](std::int64_t stamp_ns) {
     return std::ranges::find(points.tracks, stamp_ns, &PointTracks::from_ns) != points.tracks.end();
   };
   std::erase_if(references_, [&](const Reference& reference) { return !tracks_of(reference.stamp_ns); });
-  const bool is_one = std::ranges::find(references_, *last_ns_, &Reference::stamp_ns) != references_.end();
-  if (tracks_of(*last_ns_) && !is_one) references_.push_back({*last_ns_, local_from_last_, INT_MAX, 0.0, {}});
+  const bool is_taken = std::ranges::find(references_, *last_ns_, &Reference::stamp_ns) != references_.end();
+  if (tracks_of(*last_ns_) && !is_taken)
+    references_.push_back({*last_ns_, local_from_last_.inverse(), INT_MAX, 0.0, {}});
 }
 
 /// From the pose of the panorama, which is the last one from now on.
@@ -182,7 +183,7 @@ void PanoramicMotion::learn_distances(const PanoramaPoints& points) {
   for (const PointTracks& tracks : points.tracks) {
     const auto reference = std::ranges::find(references_, tracks.from_ns, &Reference::stamp_ns);
     if (reference == references_.end()) continue;
-    const Eigen::Isometry3d then_from_now = reference->local_from_camera.inverse() * local_from_last_;
+    const Eigen::Isometry3d then_from_now = reference->camera_from_local * local_from_last_;
     for (const Sighting& sighting : tracks.sightings) {
       Point& point = reference->points[sighting.id];
       if (const auto better = updated(point.inverse, sighting, then_from_now)) {

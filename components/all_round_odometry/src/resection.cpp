@@ -15,9 +15,9 @@ constexpr double kSettled = 2e-4;   // m and rad: far below the noise
 constexpr double kLossScale = 2.0;  // standard deviations
 constexpr double kAgrees = 3.0;     // standard deviations
 constexpr double kMaxStep = 20.0;   // m: a vehicle between two panoramas
-constexpr double kExpectedWay_m = 0.5,
-                 kExpectedTurn_rad = 0.1;  // deviation from the start: a vehicle between two panoramas
-constexpr double kInside = 0.05;           // share of the distance: nearer, a point is inside the camera
+// Deviation from the start: a vehicle between two panoramas.
+constexpr double kExpectedWay_m = 0.5, kExpectedTurn_rad = 0.1;
+constexpr double kInside = 0.05;  // share of the distance: nearer, a point is inside the camera
 // Stitching, lens and changed appearance: 0.15 px of a panorama of 1080 columns.
 constexpr double kSystematic_rad = 9e-4;
 
@@ -63,12 +63,12 @@ std::optional<Resection> resect(std::span<const KnownSighting> points, const Eig
     double disagreement = 0.0;
     found.agreeing = 0;
     for (const KnownSighting& point : points) {
-      const auto residual =
-          residual_of(*point.sighting, point.inverse.mean, point.local_from_then->inverse() * found.local_from_now);
+      const Eigen::Isometry3d& then_from_local = *point.then_from_local;
+      const auto residual = residual_of(*point.sighting, point.inverse.mean, then_from_local * found.local_from_now);
       if (!residual) continue;
-      const Eigen::Matrix3d then_from_local = point.local_from_then->linear().transpose();
       Eigen::Matrix<double, 2, 6> by_pose;
-      by_pose << residual->by_pose.leftCols<3>() * then_from_local, residual->by_pose.rightCols<3>() * then_from_local;
+      by_pose << residual->by_pose.leftCols<3>() * then_from_local.linear(),
+          residual->by_pose.rightCols<3>() * then_from_local.linear();
       const Eigen::Matrix2d weight = (residual->measurement_covariance +
                                       point.inverse.variance * residual->by_inverse * residual->by_inverse.transpose())
                                          .inverse();

@@ -105,7 +105,8 @@ TEST_F(ResectionInAPark, CombinesPointsOfSeveralReferences) {
   // The same points, told relative to another camera pose of the local frame.
   const Eigen::Isometry3d elsewhere =
       Eigen::Translation3d(10.0, -5.0, 1.0) * Eigen::Isometry3d(vision::so3_exp({0.0, 0.0, 1.0}));
-  for (KnownSighting& known : known_) known.local_from_then = &elsewhere;
+  const Eigen::Isometry3d then_from_local = elsewhere.inverse();
+  for (KnownSighting& known : known_) known.then_from_local = &then_from_local;
   const Eigen::Isometry3d expected = elsewhere * truth_;
   const auto found = resect(known_, moved(expected, vision::Vector6d::Constant(0.05)));
   ASSERT_TRUE(found);

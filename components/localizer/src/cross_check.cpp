@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "panvo/vision/angle.hpp"
-#include "seconds.hpp"
+#include "panvo/vision/seconds.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -97,7 +97,8 @@ std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const St
       way_dispute_.end();
     } else {
       const auto gone = gone_on(chain, stretch.to_ns);
-      const double part = gone ? seconds(stretch.from_ns, stretch.to_ns) / seconds(*agreed_ns_, stretch.to_ns) : 0.0;
+      const double part =
+          gone ? vision::seconds(stretch.from_ns, stretch.to_ns) / vision::seconds(*agreed_ns_, stretch.to_ns) : 0.0;
       const double otherwise_m = gone ? gone->more.way_m.norm() * std::min(1.0, part) : 0.0;
       way_dispute_.add(stretch.reference_ns, stretch.to_ns, std::max(off_m.value_or(0.0), otherwise_m),
                        Wrong::kOdometry);
@@ -173,7 +174,7 @@ auto CrossCheck::gone_on(const OdometryBuffer& chain, std::int64_t to_ns) const 
   const auto before = moved(chain, *agreed_ns_ - static_cast<std::int64_t>(kSteady_s * 1e9), *agreed_ns_);
   const auto since = moved(chain, *agreed_ns_, to_ns);
   if (!before || !since) return std::nullopt;
-  const double time_s = seconds(*agreed_ns_, to_ns), times = time_s / kSteady_s;
+  const double time_s = vision::seconds(*agreed_ns_, to_ns), times = time_s / kSteady_s;
   return GoneOn{{vision::wrapped(since->turn_rad - times * before->turn_rad), since->way_m - times * before->way_m},
                 turn_sigma_rad(motion_, time_s),
                 way_sigma_m(motion_, time_s)};
@@ -275,7 +276,7 @@ std::optional<std::int64_t> CrossCheck::settle_break(OdometryBuffer& chain, cons
 }
 
 bool CrossCheck::is_fresh(std::int64_t stamp_ns, std::int64_t now_ns) const {
-  return seconds(stamp_ns, now_ns) < patience_s_;
+  return vision::seconds(stamp_ns, now_ns) < patience_s_;
 }
 
 }  // namespace panvo::localizer

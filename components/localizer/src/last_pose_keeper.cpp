@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "last_pose_keeper.hpp"
-#include "seconds.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "panvo/vision/seconds.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -23,7 +24,7 @@ void LastPoseKeeper::begin(Localizer& localizer, std::int64_t stamp_ns) const {
   if (last) {
     const Eigen::Vector3d position = last->pose.map_from_base.translation();
     reason = fmt::format("restarted after a crash; last known position ({:.1f}, {:.1f}) m in {}, {:.1f} s before",
-                         position.x(), position.y(), last->map_frame, seconds(last->stamp_ns, stamp_ns));
+                         position.x(), position.y(), last->map_frame, vision::seconds(last->stamp_ns, stamp_ns));
   }
   const bool is_of_map = last && last->map_frame == parameters_.map_frame;
   localizer.forget_start(is_of_map ? std::optional(last->pose) : std::nullopt, reason);
@@ -40,7 +41,7 @@ std::optional<LastPose> LastPoseKeeper::read() const {
 }
 
 bool LastPoseKeeper::go_on(Localizer& localizer, const LastPose& last, std::int64_t stamp_ns) const {
-  const double gap_s = seconds(last.stamp_ns, stamp_ns);
+  const double gap_s = vision::seconds(last.stamp_ns, stamp_ns);
   if (last.map_frame != parameters_.map_frame || gap_s < 0.0 || gap_s > parameters_.last_pose_s) {
     log_.info("{}: ignored: frame '{}', age {:.1f} s (last_pose_s: {:.1f})", parameters_.last_pose_file, last.map_frame,
               gap_s, parameters_.last_pose_s);
@@ -61,7 +62,7 @@ bool LastPoseKeeper::go_on(Localizer& localizer, const LastPose& last, std::int6
 void LastPoseKeeper::keep(const LocalizedPose& pose, const geometry_msgs::msg::Twist& twist) {
   const bool is_known = pose.state == State::kTracking || pose.state == State::kRelocalised;
   if (parameters_.last_pose_file.empty() || !is_known) return;
-  if (kept_ns_ && std::abs(seconds(*kept_ns_, pose.stamp_ns)) < kKeepPeriod_s) return;
+  if (kept_ns_ && std::abs(vision::seconds(*kept_ns_, pose.stamp_ns)) < kKeepPeriod_s) return;
   kept_ns_ = pose.stamp_ns;
   const auto& speed = twist.linear();
   try {

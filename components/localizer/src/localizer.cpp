@@ -10,7 +10,7 @@
 
 #include "panvo/localizer/soundness.hpp"
 #include "panvo/vision/angle.hpp"
-#include "seconds.hpp"
+#include "panvo/vision/seconds.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -67,9 +67,9 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
   const double doubt = std::min(1.0, odometry.outlier_share / parameters_.doubtful_outlier_share);
   const double scale = turn_scale_.estimate();
   const vision::Matrix6d least =
-      chain_.empty()
-          ? vision::Matrix6d(vision::Matrix6d::Zero())
-          : dead_reckoning_.step(seconds(chain_.latest().pose.stamp_ns, odometry.stamp_ns), odometry.is_reliable);
+      chain_.empty() ? vision::Matrix6d(vision::Matrix6d::Zero())
+                     : dead_reckoning_.step(vision::seconds(chain_.latest().pose.stamp_ns, odometry.stamp_ns),
+                                            odometry.is_reliable);
   chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt), scale, least);
   check_.add_step(chain_);
   if (graph_.has_started()) {
@@ -123,7 +123,7 @@ bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
 void Localizer::set_clock_back(std::int64_t by_ns) {
   if (chain_.empty()) return;
   // Which of the two times was right is unknown, and so is the vehicle's position at that time.
-  const double by_s = std::min(seconds(0, by_ns), kMistakenFor_s);
+  const double by_s = std::min(vision::seconds(0, by_ns), kMistakenFor_s);
   const std::int64_t latest_ns = chain_.latest().pose.stamp_ns;
   const auto twist = chain_.twist(latest_ns);
   const double way_m = (twist ? twist->head<2>().norm() * by_s : 0.0) + way_sigma_m(parameters_.motion, by_s);
@@ -168,7 +168,7 @@ std::int64_t Localizer::in_odometry_time(std::int64_t panorama_stamp_ns) const {
 LocalizedPose Localizer::after_silence(double silence_s) const {
   LocalizedPose pose = latest_;
   if (pose.state == State::kStarting || !(silence_s > 0.0)) return pose;
-  pose.stamp_ns += static_cast<std::int64_t>(silence_s * kSecond_ns);
+  pose.stamp_ns += static_cast<std::int64_t>(silence_s * vision::kSecond_ns);
   pose.covariance = vision::compose_covariance(latest_.map_from_base, latest_.covariance, Eigen::Isometry3d::Identity(),
                                                dead_reckoning_.silence(silence_s));
   return pose;
@@ -180,7 +180,7 @@ std::vector<Doubt> Localizer::doubts() const {
     doubts.push_back(
         {conflicting_->off_m, true,
          fmt::format("landmark {} was seen at an unexpected position", conflicting_->sighting.landmark_id)});
-  } else if (asking_ && asking_->is_far && seconds(asking_->at_ns, latest_.stamp_ns) < parameters_.patience_s) {
+  } else if (asking_ && asking_->is_far && vision::seconds(asking_->at_ns, latest_.stamp_ns) < parameters_.patience_s) {
     doubts.push_back({asking_->off_m, true,
                       fmt::format("landmark {} was seen at an unexpected position", asking_->sighting.landmark_id)});
   }
@@ -224,8 +224,8 @@ void Localizer::set_state(LocalizedPose& pose) const {
   if (!is_located_) return tell(State::kUnlocated, unlocated_reason_);
   if (auto fault = check_.fault_of_odometry(pose.stamp_ns)) return tell(State::kCompassOnly, *std::move(fault));
   if (unreliable_since_ns_) {
-    const bool has_azimuth = azimuth_ns_ && seconds(*azimuth_ns_, pose.stamp_ns) < parameters_.patience_s;
-    const double since_s = seconds(*unreliable_since_ns_, pose.stamp_ns);
+    const bool has_azimuth = azimuth_ns_ && vision::seconds(*azimuth_ns_, pose.stamp_ns) < parameters_.patience_s;
+    const double since_s = vision::seconds(*unreliable_since_ns_, pose.stamp_ns);
     if (has_azimuth) return tell(State::kCompassOnly, fmt::format("odometry unreliable for {:.1f} s", since_s));
     if (since_s > parameters_.patience_s) {
       return tell(State::kLost, fmt::format("odometry unreliable for {:.1f} s, no compass", since_s));

@@ -24,10 +24,10 @@
 #include "panvo/localizer/odometry_origin.hpp"
 #include "panvo/localizer/soundness.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/vision/seconds.hpp"
 #include "path_record.hpp"
 #include "pose_publisher.hpp"
 #include "satellites.hpp"
-#include "seconds.hpp"
 #include "set_back.hpp"
 
 namespace panvo::localizer {
@@ -94,7 +94,8 @@ class LocalizerComponent final : public runtime::Component {
     azimuth_ns_.reset();
     publisher_.forget_stamps();
     context_.log().warn("the clock of {} was set back by {:.1f} s: continuing with the new time",
-                        context_.resolved_name(topics::kOdometryBinocular), static_cast<double>(back_ns) / kSecond_ns);
+                        context_.resolved_name(topics::kOdometryBinocular),
+                        static_cast<double>(back_ns) / vision::kSecond_ns);
   }
 
   /// Reports an unusable message in the log and in diagnostics.
@@ -144,30 +145,35 @@ class LocalizerComponent final : public runtime::Component {
           "nothing recognised",
           "no landmark of the loaded map was recognised in {:.0f} m: is it a map of another area?", kUnlocatedFor_m);
     }
-    if (azimuth_ns_ && seconds(*azimuth_ns_, stamp_ns) > kNoPanorama_s) {
+    if (azimuth_ns_ && vision::seconds(*azimuth_ns_, stamp_ns) > kNoPanorama_s) {
       context_.log().warn_throttled("no panorama", "no panorama for {:.0f} s: the pose drifts with the stereo odometry",
                                     kNoPanorama_s);
     }
   }
 
+  /// In the map's frame, or in that of the vehicle, as viewers publish it that follow the vehicle.
   void on_initial_pose(const geometry_msgs::msg::PoseWithCovarianceStamped& message) {
+    const std::string topic = context_.resolved_name(topics::kInitialPose);
+    if (!begin_ns_) return context_.log().warn("{} ignored: no odometry received yet", topic);
     const auto& frame = message.header().frame_id();
-    if (frame != parameters_.map_frame) {
-      return context_.log().warn("{} ignored: frame is '{}', expected '{}'",
-                                 context_.resolved_name(topics::kInitialPose), frame, parameters_.map_frame);
+    const bool is_in_map = frame == parameters_.map_frame;
+    if (!is_in_map && frame != last_odometry_->child_frame_id()) {
+      return context_.log().warn("{} ignored: frame is '{}', expected '{}' or '{}'", topic, frame,
+                                 parameters_.map_frame, last_odometry_->child_frame_id());
     }
     const auto pose = conversions::to_isometry(message.pose().pose());
-    if (!pose) return context_.log().warn("{} {}", context_.resolved_name(topics::kInitialPose), pose.reason());
-    if (!begin_ns_)
-      return context_.log().warn("{} ignored: no odometry received yet", context_.resolved_name(topics::kInitialPose));
-    // A click on a map refers to the present; its stamp, by another clock, is ignored.
-    const PoseInMap said{*pose, conversions::to_matrix(message.pose().covariance())};
-    if (!localizer_.set_initial_pose(said, localizer_.latest().stamp_ns)) {
-      return context_.log().warn("{} ignored: invalid pose or covariance",
-                                 context_.resolved_name(topics::kInitialPose));
+    if (!pose) return context_.log().warn("{} {}", topic, pose.reason());
+    PoseInMap said{*pose, conversions::to_matrix(message.pose().covariance())};
+    if (!is_in_map) {
+      const Eigen::Isometry3d& map_from_base = localizer_.latest().map_from_base;
+      said = {map_from_base * *pose, vision::rotate_covariance(map_from_base.linear(), said.covariance)};
     }
-    context_.log().info("{}: position set to ({:.1f}, {:.1f}) m in {}", context_.resolved_name(topics::kInitialPose),
-                        pose->translation().x(), pose->translation().y(), parameters_.map_frame);
+    // A click on a map refers to the present; its stamp, by another clock, is ignored.
+    if (!localizer_.set_initial_pose(said, localizer_.latest().stamp_ns)) {
+      return context_.log().warn("{} ignored: invalid pose or covariance", topic);
+    }
+    context_.log().info("{}: position set to ({:.1f}, {:.1f}) m in {}", topic, said.map_from_base.translation().x(),
+                        said.map_from_base.translation().y(), parameters_.map_frame);
     publish_pose();
   }
 
@@ -215,7 +221,7 @@ class LocalizerComponent final : public runtime::Component {
           "panoramas ahead",
           "panorama stamps are {:.1f} s ahead of {}: camera clocks are not synchronised, or no odometry is "
           "received; corrections disabled",
-          begin_ns_ ? seconds(localizer_.latest().stamp_ns, stamp_of(fact)) : 0.0,
+          begin_ns_ ? vision::seconds(localizer_.latest().stamp_ns, stamp_of(fact)) : 0.0,
           context_.resolved_name(topics::kOdometryBinocular));
     }
     work_off();
@@ -238,7 +244,8 @@ class LocalizerComponent final : public runtime::Component {
         context_.log().warn_throttled(
             "panoramas behind",
             "panorama stamps are {:.1f} s behind {}: camera clocks are not synchronised; corrections disabled",
-            seconds(azimuth.to_ns, localizer_.latest().stamp_ns), context_.resolved_name(topics::kOdometryBinocular));
+            vision::seconds(azimuth.to_ns, localizer_.latest().stamp_ns),
+            context_.resolved_name(topics::kOdometryBinocular));
       }
       return;
     }
@@ -304,7 +311,7 @@ class LocalizerComponent final : public runtime::Component {
   /// Runs whether or not messages arrive.
   void on_tick() {
     take_joined();
-    const double silence_s = begin_ns_ ? seconds(odometry_at_ns_, context_.passing_ns()) : 0.0;
+    const double silence_s = begin_ns_ ? vision::seconds(odometry_at_ns_, context_.passing_ns()) : 0.0;
     publisher_.tick(localizer_, silence_s, context_.now_ns());
   }
 

@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "panvo/localizer/dead_reckoning.hpp"
+#include "panvo/vision/seconds.hpp"
 #include "panvo/vision/step_covariance.hpp"
-#include "seconds.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -56,7 +56,7 @@ bool OdometryBuffer::add(const OdometryPose& odometry, double turn_share, double
   }
   entries_.push_back(entry);
   compose_from(entries_.size() - 1);
-  while (static_cast<double>(odometry.stamp_ns - entries_.front().raw.stamp_ns) > history_s_ * kSecond_ns) {
+  while (static_cast<double>(odometry.stamp_ns - entries_.front().raw.stamp_ns) > history_s_ * vision::kSecond_ns) {
     entries_.pop_front();
   }
   return true;
@@ -118,7 +118,7 @@ std::optional<vision::Vector6d> OdometryBuffer::twist(std::int64_t stamp_ns) con
   const auto& entry = entries_[place->after];
   vision::Vector6d moved;
   moved << entry.step.motion.translation(), vision::so3_log(entry.step.motion.linear());
-  return moved * kSecond_ns / static_cast<double>(entry.raw.stamp_ns - entries_[place->after - 1].raw.stamp_ns);
+  return moved * vision::kSecond_ns / static_cast<double>(entry.raw.stamp_ns - entries_[place->after - 1].raw.stamp_ns);
 }
 
 void OdometryBuffer::inflate_covariance(std::int64_t from_ns, std::int64_t to_ns, double factor, double max_total) {

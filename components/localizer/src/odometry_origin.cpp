@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "panvo/vision/pose.hpp"
+#include "panvo/vision/reach.hpp"
+#include "panvo/vision/seconds.hpp"
 
 namespace panvo::localizer {
 
@@ -38,8 +40,8 @@ void OdometryOrigin::set_clock_back(std::int64_t by_ns) {
 }
 
 bool OdometryOrigin::is_within_reach(const Place& from, const Place& to) const {
-  const double way_m = (to.odom_from_base.translation() - from.odom_from_base.translation()).norm();
-  return way_m <= kSlack_m + max_speed_m_s_ * 1e-9 * static_cast<double>(to.stamp_ns - from.stamp_ns);
+  return vision::is_within_reach(from.odom_from_base, to.odom_from_base, vision::seconds(from.stamp_ns, to.stamp_ns),
+                                 max_speed_m_s_);
 }
 
 OdometryPose OdometryOrigin::continued(const OdometryPose& received) const {

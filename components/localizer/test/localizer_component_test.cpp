@@ -278,7 +278,7 @@ TEST_F(LocalizerComponent, IsWhereAClickOnTheMapSays) {
   EXPECT_EQ(states_.back()->state(), states::UNLOCATED);
   click.header().frame_id("odom");
   harness_.publish(topics::kInitialPose, click);
-  EXPECT_THAT(harness_.log(), Contains(HasSubstr("expected 'map'")));
+  EXPECT_THAT(harness_.log(), Contains(HasSubstr("expected 'map' or 'base_link'")));
   click.header().frame_id("map");
   harness_.publish(topics::kInitialPose, click);
   EXPECT_EQ(states_.back()->state(), states::RELOCALISED);
@@ -286,6 +286,31 @@ TEST_F(LocalizerComponent, IsWhereAClickOnTheMapSays) {
   const Eigen::Vector3d expected = at(310.0, 95.0, 0.5) * Eigen::Vector3d(0.2, 0.0, 0.0);
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), expected.x(), 0.01);
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), expected.y(), 0.01);
+}
+
+TEST_F(LocalizerComponent, IsWhereAClickRelativeToTheVehicleSays) {
+  load();
+  drive(0, 20);
+  geometry_msgs::msg::PoseWithCovarianceStamped click;
+  click.header().frame_id("map");
+  click.pose().pose(conversions::to_pose(at(310.0, 95.0, 0.5)));
+  click.pose().covariance(conversions::to_array(0.01 * vision::Matrix6d::Identity()));
+  harness_.publish(topics::kInitialPose, click);
+  click.header().frame_id("base_link");
+  click.pose().pose(conversions::to_pose(at(4.0, -3.0, 0.2)));
+  click.pose().covariance()[0] = 4.0;
+  click.pose().covariance()[7] = 1.0;
+  harness_.publish(topics::kInitialPose, click);
+  const Eigen::Isometry3d expected = at(310.0, 95.0, 0.5) * at(4.0, -3.0, 0.2);
+  const auto& placed = enhanced_.back()->pose();
+  EXPECT_NEAR(placed.pose().position().x(), expected.translation().x(), 1e-6);
+  EXPECT_NEAR(placed.pose().position().y(), expected.translation().y(), 1e-6);
+  // Along and across the vehicle, which heads at 0.5 rad.
+  const Eigen::Matrix2d axes = at(0.0, 0.0, 0.5).linear().topLeftCorner<2, 2>();
+  const Eigen::Matrix2d spread = axes * Eigen::Vector2d(4.0, 1.0).asDiagonal() * axes.transpose();
+  EXPECT_NEAR(placed.covariance()[0], spread(0, 0), 0.01);
+  EXPECT_NEAR(placed.covariance()[1], spread(0, 1), 0.01);
+  EXPECT_NEAR(placed.covariance()[7], spread(1, 1), 0.01);
 }
 
 TEST_F(LocalizerComponent, SaysThatTheLandmarksMayBeOfAnotherPlace) {

@@ -89,6 +89,12 @@ class AllRound final : public PanoramicCompass::Method {
   const TrackedPoints* points() const override { return has_points_ ? &tracked_ : nullptr; }
 
  private:
+  struct Earlier {  // a reference before the present one
+    PointField field;
+    std::int64_t stamp_ns;
+    Eigen::Matrix3d reference_from_earlier;
+  };
+
   cv::Mat prepare(const cv::Mat& panorama) {
     const vision::Stage stage(observer_, "prepare");
     cv::Mat band = cutter_.cut(panorama);
@@ -268,11 +274,6 @@ class AllRound final : public PanoramicCompass::Method {
   std::optional<FeatureBand> features_;
   PointField field_;
   std::size_t points_at_first_ = 0;
-  struct Earlier {
-    PointField field;
-    std::int64_t stamp_ns;
-    Eigen::Matrix3d reference_from_earlier;
-  };
   std::vector<Earlier> earlier_;  // in order of stamps
   bool keeps_earlier_ = false;
   TrackedPoints tracked_;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "latched_messages.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/recorder/bag_reader.hpp"
 #include "panvo/recorder/topic_filter.hpp"
@@ -68,15 +69,15 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
 
   std::optional<std::int64_t> next_stamp_ns() override {
     const std::lock_guard lock(seek_mutex_);
-    if (const auto time_ns = std::exchange(sought_ns_, std::nullopt)) {
-      bag_->select([this](const BagTopic& topic) { return is_played(topic); }, *time_ns);
-      advance();
-    }
+    if (const auto time_ns = std::exchange(sought_ns_, std::nullopt)) move_to(*time_ns);
     return message_ ? std::optional(message_->timestamp_ns) : std::nullopt;
   }
 
   void emit() override {
     if (!message_) return;
+    for (const auto& latched : std::exchange(latched_, LatchedMessages(kMaxLatchedBytes)).all()) {
+      outputs_[static_cast<std::size_t>(latched.topic)]->publish(latched.data);
+    }
     const auto stamp_ns = message_->timestamp_ns;
     while (message_ && message_->timestamp_ns == stamp_ns) {
       outputs_[message_->topic]->publish(std::move(message_->data));
@@ -137,6 +138,20 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
     return true;
   }
 
+  /// Collects earlier latched messages to be played again: viewers drop them when the time goes back, and never saw those
+  /// that were skipped.
+  void move_to(std::int64_t time_ns) {
+    latched_ = LatchedMessages(kMaxLatchedBytes);
+    if (time_ns > bag_->metadata().start_ns) {
+      bag_->select([this](const BagTopic& topic) { return is_played(topic) && is_latched(topic); });
+      for (advance(); message_ && message_->timestamp_ns < time_ns; advance()) {
+        latched_.add(static_cast<int>(message_->topic), message_->data);
+      }
+    }
+    bag_->select([this](const BagTopic& topic) { return is_played(topic); }, time_ns);
+    advance();
+  }
+
   void refuse_unmatched(const TopicFilter& filter) const {
     std::vector<std::string> names;
     for (const auto& topic : bag_->metadata().topics) {
@@ -177,12 +192,15 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
     }
   }
 
+  static constexpr std::size_t kMaxLatchedBytes = 64 << 20;
+
   runtime::Context& context_;
   std::unique_ptr<BagReader> bag_;
   std::vector<std::shared_ptr<runtime::UntypedOutput>> outputs_;  // by the bag's topics; nullptr: not played
   BagMessage* message_ = nullptr;                                 // the next one to play
   std::mutex seek_mutex_;
   std::optional<std::int64_t> sought_ns_ = INT64_MIN;  // the bag is to be read from there
+  LatchedMessages latched_{kMaxLatchedBytes};          // of before, to be played first
   bool waits_at_end_ = false;
   std::size_t warnings_told_ = 0;
   Progress progress_;

@@ -27,7 +27,8 @@ using namespace rosbag2_interfaces::srv;  // NOLINT(google-build-using-namespace
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-/// A bag with odometry 0 and 1 at one time, and odometry 2 an hour later, played by "/rosbag2_player".
+/// A bag with a static transform, then odometry 0 and 1 at one time, and odometry 2 an hour later, played by
+/// "/rosbag2_player".
 class PlayerServices : public testing::Test {
  protected:
   void SetUp() override {
@@ -35,6 +36,9 @@ class PlayerServices : public testing::Test {
       BagWriter writer(folder_ / "bag");
       const int topic = writer.add_topic(
           BagTopic::of("/odometry/binocular", *interfaces::find_message_type("nav_msgs/msg/Odometry"), {}));
+      const int transforms = writer.add_topic(BagTopic::of(
+          topics::kTfStatic.name, *interfaces::find_message_type("tf2_msgs/msg/TFMessage"), topics::kTfStatic.qos));
+      writer.write(transforms, start_ns_ - 1000, runtime::to_bytes(tf2_msgs::msg::TFMessage()));
       for (const std::int32_t number : {0, 1, 2}) {
         nav_msgs::msg::Odometry message;
         message.header().stamp().sec(number);
@@ -42,9 +46,12 @@ class PlayerServices : public testing::Test {
       }
     }
     container_.observe(
-        [](const runtime::TopicDescription& topic) { return topic.name == "/odometry/binocular"; },
-        [this](const runtime::TopicDescription&, const runtime::SamplePtr& sample) {
+        [](const runtime::TopicDescription& topic) {
+          return topic.name == "/odometry/binocular" || topic.name == topics::kTfStatic.name;
+        },
+        [this](const runtime::TopicDescription& topic, const runtime::SamplePtr& sample) {
           const std::lock_guard lock(mutex_);
+          if (topic.name == topics::kTfStatic.name) return transforms_before_.push_back(played_.size());
           played_.push_back(runtime::Sample::as<nav_msgs::msg::Odometry>(sample)->header().stamp().sec());
           changed_.notify_all();
         });
@@ -101,6 +108,7 @@ class PlayerServices : public testing::Test {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<int> played_;
+  std::vector<std::size_t> transforms_before_;  // index of the odometry that was played next
   std::unique_ptr<runtime::TopicAccess> access_;
   runtime::Container container_{
       runtime::ContainerOptions{.rate = 1, .log = [](runtime::LogLevel, const std::string&, const std::string&) {}}};
@@ -126,6 +134,17 @@ TEST_F(PlayerServices, MoveForwardAndBackAlsoFromTheEnd) {
   EXPECT_THAT(played(3), testing::ElementsAre(0, 1, 2));
   EXPECT_TRUE(seek(start_ns_ + 1000));
   EXPECT_THAT(played(4), testing::ElementsAre(0, 1, 2, 1));
+}
+
+TEST_F(PlayerServices, PlayLatchedMessagesAgainAfterAMove) {
+  call<Resume_Response>("resume", Resume_Request());
+  played(2);
+  EXPECT_TRUE(seek(start_ns_ + 1000));  // back
+  played(3);
+  EXPECT_TRUE(seek(start_ns_ + 3600 * kSecond));  // and on
+  EXPECT_THAT(played(4), testing::ElementsAre(0, 1, 1, 2));
+  const std::lock_guard lock(mutex_);
+  EXPECT_THAT(transforms_before_, testing::ElementsAre(0, 2, 3));
 }
 
 TEST_F(PlayerServices, MoveWhilePausedWithoutPlaying) {

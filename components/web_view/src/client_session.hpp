@@ -42,7 +42,7 @@ class ClientSession final : public WebServer::Session {
   void tell(const ServiceTable::Change& change);
   /// To a client that asked for the graph: what has changed since it was told of it.
   void tell(const ConnectionGraph& graph);
-  /// If the client was welcomed without a time, it begins a session anew, as its clock was another one.
+  /// Restarts the session of a client that was welcomed without a time, because its clock differed.
   void tell_time(std::int64_t time_ns);
   /// A warning if messages were dropped since the last one, at most every 10 s.
   void tell_drops();

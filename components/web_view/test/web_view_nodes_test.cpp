@@ -193,7 +193,7 @@ TEST_F(WebViewNodes, TellTheTimeOfASimulation) {
   auto frame = next_message(client);
   EXPECT_EQ(frame[0], 2);
   EXPECT_EQ(std::vector<std::uint8_t>(frame.begin() + 1, frame.end()), second);
-  // Who came before begins anew with the time.
+  // The session of an earlier client is restarted with the time.
   EXPECT_EQ(next_text(early, "serverInfo"), timed);
   EXPECT_NE(timed["sessionId"], untimed["sessionId"]);
   EXPECT_EQ(next_text(early, "advertise")["channels"], json::array());

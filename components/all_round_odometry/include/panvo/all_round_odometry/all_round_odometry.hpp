@@ -41,14 +41,14 @@ struct AllRoundPose {
 };
 
 /// Stereo odometry, continued by the motion in the panoramas while the stereo camera sees nothing usable or is silent.
-/// Until its first failure, poses are those of the stereo odometry; after one, they are shifted so that the path goes
-/// on.
+/// Until its first failure, poses are those of the stereo odometry; afterwards, they are shifted so that the path is
+/// continuous.
 class AllRoundOdometry {
  public:
   /// `base_from_camera`: position of the panoramic camera on the vehicle.
   AllRoundOdometry(const Parameters& parameters, const Eigen::Vector3d& base_from_camera);
 
-  /// The position of the panoramic camera is another one than known so far: distances are learned anew.
+  /// The position of the panoramic camera has changed: learns all distances again.
   void set_camera(const Eigen::Vector3d& base_from_camera) { motion_ = PanoramicMotion(base_from_camera); }
 
   /// In order of stamps; false, without effect, for a stamp not later than the last.

@@ -51,7 +51,7 @@ class PanoramicMotion {
 
   struct Reference {
     std::int64_t stamp_ns;
-    Eigen::Isometry3d local_from_camera;
+    Eigen::Isometry3d camera_from_local;
     int generation;         // 0: distances by measured motion; else by the motion that those of the one before showed
     double scale_variance;  // relative, of all distances alike
     std::map<int, Point> points;

@@ -32,7 +32,7 @@ std::optional<Residual> residual_of(const Sighting& sighting, double inverse_m, 
 struct KnownSighting {
   const Sighting* sighting;
   InverseDistance inverse;
-  const Eigen::Isometry3d* local_from_then;  ///< pose of the camera at its reference
+  const Eigen::Isometry3d* then_from_local;  ///< inverse pose of the camera at its reference
 };
 
 struct Resection {

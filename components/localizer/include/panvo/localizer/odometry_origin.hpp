@@ -39,8 +39,7 @@ class OdometryOrigin {
   bool is_within_reach(const Place& from, const Place& to) const;
   OdometryPose continued(const OdometryPose& received) const;
 
-  static constexpr int kRun = 5;           // consecutive messages that agree on another place
-  static constexpr double kSlack_m = 5.0;  // for stamp jitter of tens of milliseconds at 50 m/s
+  static constexpr int kRun = 5;  // consecutive messages that agree on another place
 
   const double max_speed_m_s_;
   std::optional<Place> last_, elsewhere_;  // as received: last accepted, and last rejected since

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace panvo::localizer {
+namespace panvo::vision {
 
 inline constexpr double kSecond_ns = 1e9;
 
@@ -11,4 +11,4 @@ inline double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return static_cast<double>(to_ns - from_ns) / kSecond_ns;
 }
 
-}  // namespace panvo::localizer
+}  // namespace panvo::vision
