@@ -75,7 +75,8 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
 
   void emit() override {
     if (!message_) return;
-    for (const auto& latched : std::exchange(latched_, LatchedMessages(kMaxLatchedBytes)).all()) {
+    const LatchedMessages before = std::exchange(latched_, LatchedMessages(kMaxLatchedBytes));
+    for (const auto& latched : before.all()) {
       outputs_[static_cast<std::size_t>(latched.topic)]->publish(latched.data);
     }
     const auto stamp_ns = message_->timestamp_ns;
