@@ -22,13 +22,25 @@ constexpr int kMaxUnreachable = 5;  // consecutive poses: the stereo odometry wa
 constexpr double kContradicted = 0.6, kClearly = 0.25;
 constexpr double kAcceleration = 1.5, kTurnAcceleration = 0.5;  // m/s^2 and rad/s^2, usual for a vehicle
 constexpr std::size_t kMaxStereo = 2000, kMaxPanoramas = 50;
+constexpr double kOtherClock = 2.0;      // standard deviations
+constexpr double kTurnSigma_rad = 2e-3;  // of the turn between two panoramas or stereo poses
 
 using vision::seconds;
+
+void set_back(PanoramaPoints& panorama, std::int64_t by_ns) {
+  panorama.stamp_ns -= by_ns;
+  for (PointTracks& tracks : panorama.tracks) tracks.from_ns -= by_ns;
+}
 
 }  // namespace
 
 AllRoundOdometry::AllRoundOdometry(const Parameters& parameters, const Eigen::Vector3d& base_from_camera)
-    : parameters_(parameters), motion_(base_from_camera) {}
+    : parameters_(parameters), base_from_camera_(base_from_camera), motion_(base_from_camera) {}
+
+void AllRoundOdometry::set_camera(const Eigen::Vector3d& base_from_camera) {
+  base_from_camera_ = base_from_camera;
+  motion_ = PanoramicMotion(base_from_camera_);
+}
 
 bool AllRoundOdometry::add(const StereoPose& stereo) {
   if (!stereo_.empty() && stereo.stamp_ns <= stereo_.back().stamp_ns) return false;
@@ -72,13 +84,38 @@ bool AllRoundOdometry::is_unreachable(const StereoPose& stereo) {
   return true;
 }
 
-void AllRoundOdometry::add(const PanoramaPoints& panorama, bool is_stereo_silent) {
+void AllRoundOdometry::add(PanoramaPoints panorama, bool is_stereo_silent) {
+  search_clock(panorama);
+  set_back(panorama, vision::to_ns(ahead_s_));
   if (panorama_ns_ && panorama.stamp_ns <= *panorama_ns_) return;
   is_stereo_silent_ = is_stereo_silent;
   panorama_ns_ = panorama.stamp_ns;
-  panoramas_.push_back(panorama);
+  panoramas_.push_back(std::move(panorama));
   if (panoramas_.size() > kMaxPanoramas) panoramas_.pop_front();
   process();
+}
+
+/// The times of all panoramas so far have been wrong if there is a large offset.
+void AllRoundOdometry::search_clock(const PanoramaPoints& received) {
+  if (received.tracks.empty() || stereo_.empty()) return;
+  const Eigen::Matrix3d then_from_now = received.now_from_then.transpose();
+  clock_search_.add(received.tracks.front().from_ns, received.stamp_ns,
+                    {vision::so3_log(then_from_now).z(), kTurnSigma_rad * kTurnSigma_rad});
+  const auto turn_of_stereo = [this](std::int64_t from_ns,
+                                     std::int64_t to_ns) -> std::optional<vision::ClockSearch::Turn> {
+    const auto step = measured(from_ns, to_ns);
+    if (!step) return std::nullopt;
+    return vision::ClockSearch::Turn{vision::so3_log(step->linear()).z(), kTurnSigma_rad * kTurnSigma_rad};
+  };
+  const auto found = clock_search_.find(stereo_.back().stamp_ns, turn_of_stereo);
+  if (!found || blind_) return;
+  is_clock_known_ = true;
+  if (std::abs(*found - ahead_s_) < kOtherClock * vision::ClockSearch::kSigma_s) return;
+  ahead_s_ = *found;
+  motion_ = PanoramicMotion(base_from_camera_);
+  last_.reset();
+  panoramas_.clear();
+  panorama_ns_.reset();
 }
 
 std::optional<AllRoundPose> AllRoundOdometry::next() {
@@ -122,6 +159,10 @@ bool AllRoundOdometry::is_contradicted(const PanoramaPoints& panorama, const Eig
   PanoramicMotion trial = motion_;
   const auto seen = trial.measure(panorama, vision::se3_exp(twist_ * interval_s));
   if (!seen || surprise(seen->before_from_now, interval_s) > surprise(step, interval_s)) return false;
+  // Panoramas of another time show another motion in a bend, but hardly another speed.
+  const double by_m = seen->before_from_now.translation().norm() - step.translation().norm();
+  const double usual_m_s = kAcceleration * vision::ClockSearch::kFarthest_s;
+  if (!is_clock_known_ && std::abs(by_m) < usual_m_s * interval_s) return false;
   return motion_.agreeing_share(panorama, seen->before_from_now).value_or(0.0) > *share + kClearly;
 }
 

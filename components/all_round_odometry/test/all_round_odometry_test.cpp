@@ -21,9 +21,15 @@ class Drive : public ::testing::Test {
   void go(int from, int to, Stereo stereo, bool has_panoramas = true) {
     for (int now = from; now <= to; ++now) {
       for (int frame = 1; frame <= kFrames; ++frame) add_stereo(now - 1 + frame / static_cast<double>(kFrames), stereo);
-      if (has_panoramas) odometry_.add(park_.seen(now, Park::references(now)), stereo == Stereo::kSilent);
+      if (has_panoramas) odometry_.add(late(park_.seen(now, Park::references(now))), stereo == Stereo::kSilent);
       while (const auto pose = odometry_.next()) poses_.push_back(*pose);
     }
+  }
+
+  PanoramaPoints late(PanoramaPoints panorama) const {
+    panorama.stamp_ns += late_ns_;
+    for (PointTracks& tracks : panorama.tracks) tracks.from_ns += late_ns_;
+    return panorama;
   }
 
   void add_stereo(double at, Stereo stereo) {
@@ -54,6 +60,7 @@ class Drive : public ::testing::Test {
   Park park_;
   AllRoundOdometry odometry_{{}, kCamera};
   StereoPose said_;
+  std::int64_t late_ns_ = 0;  // stamps of the panoramas
   std::vector<AllRoundPose> poses_;
 };
 
@@ -164,22 +171,42 @@ TEST_F(Drive, GivesUpIfPanoramasFailToo) {
 }
 
 TEST_F(Drive, FollowsThePanoramasIfAnObjectFillsTheStereoCamera) {
-  go(1, 12, Stereo::kGood);
-  go(13, 30, Stereo::kDeceived);
+  go(1, 30, Stereo::kGood);
+  go(31, 48, Stereo::kDeceived);
   EXPECT_LT(error_m(poses_.back()), 0.6) << "15 m behind by the stereo odometry";
-  go(31, 40, Stereo::kGood);
+  go(49, 60, Stereo::kGood);
   EXPECT_FALSE(poses_.back().agreeing_share);
   EXPECT_LT(error_m(poses_.back()), 0.6);
   expect_increasing_stamps();
 }
 
+TEST_F(Drive, FollowsThePanoramasAlsoBeforeTheClockIsKnown) {
+  go(1, 8, Stereo::kGood);
+  go(9, 26, Stereo::kDeceived);
+  EXPECT_LT(error_m(poses_.back()), 0.6);
+}
+
+TEST_F(Drive, FindsHowLateThePanoramasAreStamped) {
+  late_ns_ = 270'000'000;
+  go(1, 40, Stereo::kGood);
+  EXPECT_EQ(poses_.size(), 40U * kFrames);
+  for (const AllRoundPose& pose : poses_) ASSERT_FALSE(pose.agreeing_share) << "no other motion, but another time";
+  go(41, 60, Stereo::kBlind);
+  EXPECT_TRUE(poses_.back().agreeing_share);
+  EXPECT_GT(panorama_of(poses_.back()), 59.0);
+  EXPECT_LT(error_m(poses_.back()), 0.6) << "1.35 m at the times of the stamps";
+  go(61, 70, Stereo::kGood);
+  EXPECT_LT(error_m(poses_.back()), 0.6);
+  expect_increasing_stamps();
+}
+
 TEST_F(Drive, DoesNotBelieveAPanoramicCameraThatIsTurned) {
-  go(1, 12, Stereo::kGood);
+  go(1, 30, Stereo::kGood);
   const Eigen::Matrix3d turn = vision::so3_exp({0.0, 0.0, 0.3});
-  for (int now = 13; now <= 30; ++now) {
+  for (int now = 31; now <= 50; ++now) {
     for (int frame = 1; frame <= kFrames; ++frame) add_stereo(now - 1 + frame / 5.0, Stereo::kGood);
     auto seen = park_.seen(now, Park::references(now));
-    const int turned_at = 13;
+    const int turned_at = 31;
     for (PointTracks& tracks : seen.tracks) {
       for (Sighting& sighting : tracks.sightings) {
         sighting.now = turn * sighting.now;

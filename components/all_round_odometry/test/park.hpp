@@ -15,6 +15,8 @@ namespace panvo::all_round_odometry {
 
 inline const Eigen::Vector3d kCamera(-0.3, 0.1, 2.0);  // on the vehicle
 inline constexpr double kRadius_m = 50.0;              // of the bend
+inline constexpr double kSwerve_rad = 0.2;             // of the heading, to and fro
+inline constexpr double kSwerve = 0.4;                 // rad per panorama
 inline constexpr std::int64_t kInterval_ns = 200'000'000;
 
 class Park {
@@ -32,7 +34,7 @@ class Park {
   static Eigen::Isometry3d vehicle(double panorama) {
     const double yaw_rad = panorama / kRadius_m;
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.linear() = vision::so3_exp({0.0, 0.0, yaw_rad});
+    pose.linear() = vision::so3_exp({0.0, 0.0, yaw_rad + kSwerve_rad * (1.0 - std::cos(kSwerve * panorama))});
     pose.translation() = kRadius_m * Eigen::Vector3d(std::sin(yaw_rad), 1.0 - std::cos(yaw_rad), 0.0);  // 1 m each
     return pose;
   }

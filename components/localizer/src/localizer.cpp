@@ -48,6 +48,7 @@ Localizer::Localizer(const Parameters& parameters)
       origin_(parameters.max_speed_m_s),
       chain_(parameters.history_s),
       clock_(parameters.clock_sigma_s),
+      is_clock_known_(parameters.clock_sigma_s == 0.0),
       turn_scale_(parameters.turn_scale_sigma),
       lean_(parameters.lean_window_s, parameters.lean_sigmas),
       check_(parameters),
@@ -130,6 +131,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   chain_.allow(latest_ns - 1, latest_ns, way_m * way_m, std::pow(turn_sigma_rad(parameters_.motion, by_s), 2));
   origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
+  clock_search_ = {};
   graph_.set_clock_back(by_ns);
   for (auto* stamp_ns : {&unreliable_since_ns_, &doubtful_ns_, &azimuth_ns_}) {
     if (*stamp_ns) **stamp_ns -= by_ns;

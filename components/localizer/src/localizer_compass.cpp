@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "panvo/localizer/soundness.hpp"
 #include "panvo/vision/angle.hpp"
+#include "panvo/vision/seconds.hpp"
 
 /// Processing of the panoramic compass.
 namespace panvo::localizer {
@@ -14,7 +16,10 @@ namespace {
 constexpr double kMaxInflation =
     25.0;                              // wrong turns also cause wrong translation, by up to five times the stated error
 constexpr double kClockCaution = 9.0;  // odometry sometimes errs by more than stated, especially while turning
-constexpr double kScaleCaution = 4.0;  // compass errors are correlated over some seconds, e.g. in a bend
+constexpr double kUnknownClock_s = 0.3;  // offset, before it was searched: latency of a video stream
+constexpr double kStraight = 0.02;       // rad/s: another time makes no difference
+constexpr double kOtherClock = 2.0;      // standard deviations: the filter follows smaller differences
+constexpr double kScaleCaution = 4.0;    // compass errors are correlated over some seconds, e.g. in a bend
 
 }  // namespace
 
@@ -22,6 +27,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const std::int64_t from_ns = in_odometry_time(azimuth.from_ns);
   const std::int64_t to_ns = in_odometry_time(azimuth.to_ns);
   if (fault_of_angle(azimuth.change_rad, azimuth.variance_rad2)) return AzimuthUse::kNotUsed;
+  search_clock(azimuth);
   if (!chain_.turn(from_ns, to_ns)) return AzimuthUse::kNotUsed;
   const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
   take_reference(azimuth.from_ns);
@@ -32,7 +38,8 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const double rate_change = twist_then && twist_now ? (*twist_now)[vision::kYaw] - (*twist_then)[vision::kYaw] : 0.0;
   const double missed_rad = parameters_.compass_turn_error_ratio * azimuth.change_rad;
   const double measured_variance = azimuth.variance_rad2 + missed_rad * missed_rad;
-  const double compass_variance = measured_variance + rate_change * rate_change * clock_.variance_s2();
+  const double clock_variance_s2 = clock_.variance_s2() + (is_clock_known_ ? 0.0 : kUnknownClock_s * kUnknownClock_s);
+  const double compass_variance = measured_variance + rate_change * rate_change * clock_variance_s2;
   const double spread = compass_variance + turn->said_variance_rad2;
   const double excess =
       disagreement * disagreement / (spread * parameters_.contradiction_sigmas * parameters_.contradiction_sigmas);
@@ -40,6 +47,10 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
                                      .topLeftCorner<2, 2>()
                                      .trace();  // as stated by odometry, before it is inflated
   const bool is_contradicted = excess > 1.0;
+  if (!is_clock_known_ && is_contradicted) {
+    azimuth_ns_ = to_ns;
+    return AzimuthUse::kUnclear;
+  }
   const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
   const auto wrong = check_.add_turns(chain_, stretch, disagreement, is_contradicted);
   if (wrong == Wrong::kOdometry) {
@@ -50,17 +61,21 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const auto unsure_since_ns = check_.add_ways(chain_, stretch, azimuth, way_variance_m2);
   if (unsure_since_ns) doubtful_ns_ = to_ns;
 
-  bool leans = false;
-  if (is_contradicted) {
+  const double turn_rate = azimuth.change_rad / vision::seconds(from_ns, to_ns);
+  const bool is_straight = std::max(std::abs(turn_rate), std::abs(rate_change)) < kStraight;
+  std::optional<YawBiasDetector::Stretch> lean;
+  if (is_contradicted || !(is_clock_known_ || is_straight)) {
     lean_.forget();
-  } else if (const auto lean = add_to_lean({.from_ns = from_ns,
-                                            .to_ns = to_ns,
-                                            .compass_rad = azimuth.change_rad,
-                                            .odometry_variance_rad2 = turn->said_variance_rad2,
-                                            .compass_variance_rad2 = compass_variance})) {
-    leans = true;
-    straighten(*lean);
   } else {
+    lean = add_to_lean({.from_ns = from_ns,
+                        .to_ns = to_ns,
+                        .compass_rad = azimuth.change_rad,
+                        .odometry_variance_rad2 = turn->said_variance_rad2,
+                        .compass_variance_rad2 = compass_variance});
+  }
+  if (lean) {
+    straighten(*lean);
+  } else if (!is_contradicted) {
     turn_seen_ = TurnSeen{disagreement, turn->change_rad, kScaleCaution * (compass_variance + turn->variance_rad2)};
     clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->said_variance_rad2));
   }
@@ -69,7 +84,28 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   graph_.refresh(chain_, std::min(from_ns, unsure_since_ns.value_or(from_ns)));
   latest_ = localized(chain_.latest().pose);
   if (wrong == Wrong::kPanoramas) return AzimuthUse::kDoubted;
-  return is_contradicted || leans ? AzimuthUse::kContradicted : AzimuthUse::kFused;
+  return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
+}
+
+/// Finds an offset of the panoramic camera's clock that is too large for the filter.
+void Localizer::search_clock(const AzimuthMeasurement& azimuth) {
+  if (parameters_.clock_sigma_s == 0.0) return;
+  clock_search_.add(azimuth.from_ns, azimuth.to_ns, {azimuth.change_rad, azimuth.variance_rad2});
+  const auto turn_of_odometry = [this](std::int64_t from_ns,
+                                       std::int64_t to_ns) -> std::optional<vision::ClockSearch::Turn> {
+    const auto turn = chain_.turn(from_ns, to_ns);
+    const auto raw_rad = chain_.raw_turn(from_ns, to_ns);
+    if (!turn || !raw_rad) return std::nullopt;
+    return vision::ClockSearch::Turn{*raw_rad, turn->said_variance_rad2};
+  };
+  const auto ahead_s = clock_search_.find(chain_.latest().pose.stamp_ns, turn_of_odometry);
+  if (!ahead_s) return;
+  const bool was_known = std::exchange(is_clock_known_, true);
+  if (was_known && std::abs(*ahead_s - clock_.estimate_s()) < kOtherClock * vision::ClockSearch::kSigma_s) return;
+  clock_ = ClockOffset(vision::ClockSearch::kSigma_s, *ahead_s);
+  check_.forget();
+  chain_.revert();
+  last_from_ns_.reset();  // the times of the current reference have changed
 }
 
 /// Turns against one reference panorama share its error: the latest, longest one replaces those before.

@@ -36,8 +36,9 @@ class PlayerServices : public testing::Test {
       BagWriter writer(folder_ / "bag");
       const int topic = writer.add_topic(
           BagTopic::of("/odometry/binocular", *interfaces::find_message_type("nav_msgs/msg/Odometry"), {}));
-      const int transforms = writer.add_topic(BagTopic::of(
-          topics::kTfStatic.name, *interfaces::find_message_type("tf2_msgs/msg/TFMessage"), topics::kTfStatic.qos));
+      const int transforms = writer.add_topic(BagTopic::of(std::string(topics::kTfStatic.name),
+                                                           *interfaces::find_message_type("tf2_msgs/msg/TFMessage"),
+                                                           topics::kTfStatic.qos));
       writer.write(transforms, start_ns_ - 1000, runtime::to_bytes(tf2_msgs::msg::TFMessage()));
       for (const std::int32_t number : {0, 1, 2}) {
         nav_msgs::msg::Odometry message;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "panvo/all_round_odometry/panoramic_motion.hpp"
+#include "panvo/vision/clock_search.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::all_round_odometry {
@@ -42,20 +43,20 @@ struct AllRoundPose {
 
 /// Stereo odometry, continued by the motion in the panoramas while the stereo camera sees nothing usable or is silent.
 /// Until its first failure, poses are those of the stereo odometry; afterwards, they are shifted so that the path is
-/// continuous.
+/// continuous. A large offset between the cameras' clocks is found by their turns and compensated.
 class AllRoundOdometry {
  public:
   /// `base_from_camera`: position of the panoramic camera on the vehicle.
   AllRoundOdometry(const Parameters& parameters, const Eigen::Vector3d& base_from_camera);
 
   /// The position of the panoramic camera has changed: learns all distances again.
-  void set_camera(const Eigen::Vector3d& base_from_camera) { motion_ = PanoramicMotion(base_from_camera); }
+  void set_camera(const Eigen::Vector3d& base_from_camera);
 
   /// In order of stamps; false, without effect, for a stamp not later than the last.
   bool add(const StereoPose& stereo);
   /// In order of stamps, each panorama; without tracks if it shows no motion. `is_stereo_silent`: do not wait for stereo
   /// poses up to its stamp.
-  void add(const PanoramaPoints& panorama, bool is_stereo_silent);
+  void add(PanoramaPoints panorama, bool is_stereo_silent);
 
   /// The next pose, in order of stamps; nullopt if more input is needed.
   std::optional<AllRoundPose> next();
@@ -82,6 +83,7 @@ class AllRoundOdometry {
   };
 
   bool is_unreachable(const StereoPose& stereo);
+  void search_clock(const PanoramaPoints& received);
   void process();
   void process(const PanoramaPoints& panorama);
   bool is_contradicted(const PanoramaPoints& panorama, const Eigen::Isometry3d& step, std::int64_t before_ns) const;
@@ -100,7 +102,11 @@ class AllRoundOdometry {
   std::optional<Eigen::Isometry3d> measured(std::int64_t from_ns, std::int64_t to_ns) const;
 
   const Parameters parameters_;
+  Eigen::Vector3d base_from_camera_;
   PanoramicMotion motion_;
+  vision::ClockSearch clock_search_;
+  double ahead_s_ = 0.0;           // the panoramic camera's clock
+  bool is_clock_known_ = false;    // a large offset is excluded or was found
   std::deque<StereoPose> stereo_;  // recent; the last held_ ones wait for a panorama
   std::size_t held_ = 0;
   int unreachable_ = 0;                      // consecutive poses

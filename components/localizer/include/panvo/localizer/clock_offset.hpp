@@ -10,7 +10,8 @@ namespace panvo::localizer {
 class ClockOffset {
  public:
   /// `sigma_s`: prior standard deviation.
-  explicit ClockOffset(double sigma_s) : variance_s2_(sigma_s * sigma_s) {}
+  explicit ClockOffset(double sigma_s, double estimate_s = 0.0)
+      : estimate_s_(estimate_s), variance_s2_(sigma_s * sigma_s) {}
 
   /// `disagreement_rad`: turn by panoramas minus turn by odometry between the same two times, with stamps corrected by
   /// estimate_s(); `yaw_rate_change`: of the odometry between these times, rad/s; `variance_rad2`: of the disagreement
@@ -23,7 +24,7 @@ class ClockOffset {
   std::int64_t estimate_ns() const;
 
  private:
-  double estimate_s_ = 0.0;
+  double estimate_s_;
   double variance_s2_;
 };
 

@@ -20,6 +20,7 @@
 #include "panvo/localizer/odometry_origin.hpp"
 #include "panvo/localizer/yaw_bias_detector.hpp"
 #include "panvo/localizer/yaw_scale_filter.hpp"
+#include "panvo/vision/clock_search.hpp"
 
 namespace panvo::localizer {
 
@@ -80,6 +81,7 @@ enum class AzimuthUse {
   kFused,         ///< with odometry's turn, weighted by variances
   kContradicted,  ///< odometry's turn was considered wrong
   kDoubted,       ///< not used: implausible turn while odometry continued steadily
+  kUnclear,       ///< not used: a wrong turn, or turns at different times; before the clock is known
   kNotUsed,       ///< no odometry for its stamps, or not finite
 };
 
@@ -186,6 +188,7 @@ class Localizer {
   bool confirms(const PendingRelocalization& now, const PendingRelocalization& before) const;
   bool agree(const PendingRelocalization& before, const PendingRelocalization& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
+  void search_clock(const AzimuthMeasurement& azimuth);
   void take_reference(std::int64_t panorama_stamp_ns);
   std::optional<YawBiasDetector::Stretch> add_to_lean(YawBiasDetector::Stretch turn);
   void straighten(const YawBiasDetector::Stretch& lean);
@@ -196,6 +199,8 @@ class Localizer {
   OdometryOrigin origin_;
   OdometryBuffer chain_;
   ClockOffset clock_;
+  vision::ClockSearch clock_search_;
+  bool is_clock_known_;  // a large offset is excluded or was found
   YawScaleFilter turn_scale_;
   YawBiasDetector lean_;
   CrossCheck check_;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+
+namespace panvo::vision {
+
+/// Finds a large offset between the clocks of two sensors that both see the vehicle turn, such as the latency of a video
+/// stream whose images are stamped on arrival: of a row of candidates, the one at which the turns of both agree.
+class ClockSearch {
+ public:
+  struct Turn {
+    double change_rad = 0.0;
+    double variance_rad2 = 0.0;
+  };
+  /// Turn by the reference sensor between two times of its clock; nullopt if it did not measure all of it.
+  using Reference = std::function<std::optional<Turn>(std::int64_t from_ns, std::int64_t to_ns)>;
+
+  static constexpr double kFarthest_s = 0.6;  ///< candidates reach that far to both sides
+  static constexpr double kSigma_s = 0.02;    ///< standard deviation of what is found
+
+  /// A turn by the other sensor, with stamps of its clock.
+  void add(std::int64_t from_ns, std::int64_t to_ns, const Turn& turn);
+
+  /// Compares the turns that the reference sensor, up to `latest_ns`, covers at every candidate. Returns by how much the
+  /// other clock is ahead, s, once the turns exclude all other candidates; then starts again.
+  std::optional<double> find(std::int64_t latest_ns, const Reference& reference);
+
+ private:
+  struct Pending {
+    std::int64_t from_ns, to_ns;
+    Turn turn;
+  };
+  static constexpr std::size_t kSide = 30, kCandidates = 2 * kSide + 1;
+  static constexpr double kStep_s = kFarthest_s / kSide;
+
+  static double offset_s(double candidate) { return (candidate - static_cast<double>(kSide)) * kStep_s; }
+  void compare(const Pending& seen, const Reference& reference);
+  std::optional<std::size_t> best() const;
+
+  std::deque<Pending> pending_;
+  std::array<double, kCandidates> cost_{};  // squared deviations, in variances
+};
+
+}  // namespace panvo::vision
