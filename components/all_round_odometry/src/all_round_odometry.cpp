@@ -22,10 +22,22 @@ constexpr int kMaxUnreachable = 5;  // consecutive poses: the stereo odometry wa
 constexpr double kContradicted = 0.6, kClearly = 0.25;
 constexpr double kAcceleration = 1.5, kTurnAcceleration = 0.5;  // m/s^2 and rad/s^2, usual for a vehicle
 constexpr std::size_t kMaxStereo = 2000, kMaxPanoramas = 50;
-constexpr double kOtherClock = 2.0;      // standard deviations
+constexpr double kOtherClock = 2.0;  // standard deviations
+constexpr double kSameTurn_rad = 0.02;
 constexpr double kTurnSigma_rad = 2e-3;  // of the turn between two panoramas or stereo poses
 
 using vision::seconds;
+
+PanoramaPoints turned(PanoramaPoints panorama, const Eigen::Matrix3d& by) {
+  panorama.now_from_then = by * panorama.now_from_then * by.transpose();
+  for (PointTracks& tracks : panorama.tracks) {
+    for (Sighting& sighting : tracks.sightings) {
+      sighting.then = by * sighting.then;
+      sighting.now = by * sighting.now;
+    }
+  }
+  return panorama;
+}
 
 void set_back(PanoramaPoints& panorama, std::int64_t by_ns) {
   panorama.stamp_ns -= by_ns;
@@ -134,14 +146,16 @@ void AllRoundOdometry::process() {
   if (held_ > 0 && seconds(sure_ns_, stereo_.back().stamp_ns) > parameters_.patience_s) give_up();
 }
 
-void AllRoundOdometry::process(const PanoramaPoints& panorama) {
-  if (panorama.tracks.empty()) return;
+void AllRoundOdometry::process(const PanoramaPoints& received) {
+  if (received.tracks.empty()) return;
+  const PanoramaPoints panorama = turned(received, camera_rotation_.base_from_stated());
   const std::int64_t before_ns = motion_.before_ns(panorama);
   const auto step = measured(before_ns, panorama.stamp_ns);
   const bool is_stereo_wrong = step && is_contradicted(panorama, *step, before_ns);
   if (step) is_contradicted_ = is_stereo_wrong;
   if (step && !is_stereo_wrong) {
     learn(panorama, before_ns, *step);
+    learn_rotation(received);
   } else {
     measure(panorama, before_ns);
   }
@@ -184,6 +198,19 @@ void AllRoundOdometry::learn(const PanoramaPoints& panorama, std::int64_t before
             vision::step_covariance(before.odom_from_base, before.covariance, now.odom_from_base, now.covariance));
     last_ = PanoramaPose{panorama.stamp_ns, blind_pose()};
   }
+}
+
+/// Learns the rotation of the camera from the stereo odometry's motion since the reference.
+void AllRoundOdometry::learn_rotation(const PanoramaPoints& received) {
+  const PointTracks& tracks = received.tracks.front();
+  const auto then_from_now = measured(tracks.from_ns, received.stamp_ns);
+  if (!then_from_now) return;
+  const Eigen::Matrix3d& base_from_stated = camera_rotation_.base_from_stated();
+  const Eigen::Matrix3d seen = base_from_stated * received.now_from_then.transpose() * base_from_stated.transpose();
+  // In a bend, panoramas of another time, or a camera that was turned, show another rotation.
+  if (vision::so3_log(seen.transpose() * then_from_now->linear()).norm() > kSameTurn_rad) return;
+  camera_rotation_.add(
+      tracks, Eigen::Translation3d(-base_from_camera_) * *then_from_now * Eigen::Translation3d(base_from_camera_));
 }
 
 /// Measures a motion that the stereo odometry has not, from the last panorama with a known pose.
@@ -263,7 +290,9 @@ auto AllRoundOdometry::shifted(const Pose& stereo) const -> Pose {
 auto AllRoundOdometry::blind_pose() const -> Pose {
   const Eigen::Isometry3d& moved = blind_->begin_from_last.odom_from_base;
   vision::Matrix6d covariance = blind_->begin_from_last.covariance;
-  covariance.topLeftCorner<3, 3>() += blind_->scale_variance * moved.translation() * moved.translation().transpose();
+  const Eigen::Matrix3d sideways = vision::skew(moved.translation());
+  covariance.topLeftCorner<3, 3>() += blind_->scale_variance * moved.translation() * moved.translation().transpose() +
+                                      sideways * camera_rotation_.covariance() * sideways.transpose();
   return {blind_->begin.odom_from_base * moved,
           vision::compose_covariance(blind_->begin.odom_from_base, blind_->begin.covariance, moved, covariance)};
 }

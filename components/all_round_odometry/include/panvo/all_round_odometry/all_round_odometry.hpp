@@ -7,6 +7,7 @@
 #include <deque>
 #include <optional>
 
+#include "panvo/all_round_odometry/camera_rotation.hpp"
 #include "panvo/all_round_odometry/panoramic_motion.hpp"
 #include "panvo/vision/clock_search.hpp"
 #include "panvo/vision/pose.hpp"
@@ -43,7 +44,8 @@ struct AllRoundPose {
 
 /// Stereo odometry, continued by the motion in the panoramas while the stereo camera sees nothing usable or is silent.
 /// Until its first failure, poses are those of the stereo odometry; afterwards, they are shifted so that the path is
-/// continuous. A large offset between the cameras' clocks is found by their turns and compensated.
+/// continuous. A large offset between the cameras' clocks and an error of the panoramic camera's rotation on the vehicle
+/// are estimated and compensated.
 class AllRoundOdometry {
  public:
   /// `base_from_camera`: position of the panoramic camera on the vehicle.
@@ -85,7 +87,8 @@ class AllRoundOdometry {
   bool is_unreachable(const StereoPose& stereo);
   void search_clock(const PanoramaPoints& received);
   void process();
-  void process(const PanoramaPoints& panorama);
+  void process(const PanoramaPoints& received);
+  void learn_rotation(const PanoramaPoints& received);
   bool is_contradicted(const PanoramaPoints& panorama, const Eigen::Isometry3d& step, std::int64_t before_ns) const;
   void learn(const PanoramaPoints& panorama, std::int64_t before_ns, const Eigen::Isometry3d& step);
   void measure(const PanoramaPoints& panorama, std::int64_t before_ns);
@@ -103,6 +106,7 @@ class AllRoundOdometry {
 
   const Parameters parameters_;
   Eigen::Vector3d base_from_camera_;
+  CameraRotation camera_rotation_;
   PanoramicMotion motion_;
   vision::ClockSearch clock_search_;
   double ahead_s_ = 0.0;           // the panoramic camera's clock
