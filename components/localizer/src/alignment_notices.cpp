@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "alignment_notices.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,14 +9,15 @@ namespace panvo::localizer {
 namespace {
 
 constexpr double kNotableOffset_s = 0.02;
-constexpr double kSureOffset_s = 0.004;
+constexpr double kSureOffset_s = 0.004, kSureShare = 0.25;  // standard deviation, or its share of the offset
 constexpr double kNotableDirection_rad = 0.03;
 constexpr double kSureDirection_rad = 0.006;
 
 }  // namespace
 
 void AlignmentNotices::report_clock(const ClockOffset& clock) {
-  const bool is_sure = std::sqrt(clock.variance_s2()) < kSureOffset_s;
+  const bool is_sure =
+      std::sqrt(clock.variance_s2()) < std::max(kSureOffset_s, kSureShare * std::abs(clock.estimate_s()));
   if (has_reported_offset_ || !is_sure || std::abs(clock.estimate_s()) <= kNotableOffset_s) return;
   has_reported_offset_ = true;
   log_.warn("the panoramic camera's clock is {:.0f} ms {} the stereo camera's; compensated",
