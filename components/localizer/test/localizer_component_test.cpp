@@ -294,23 +294,24 @@ TEST_F(LocalizerComponent, IsWhereAClickRelativeToTheVehicleSays) {
   geometry_msgs::msg::PoseWithCovarianceStamped click;
   click.header().frame_id("map");
   click.pose().pose(conversions::to_pose(at(310.0, 95.0, 0.5)));
-  click.pose().covariance(conversions::to_array(0.01 * vision::Matrix6d::Identity()));
+  click.pose().covariance(conversions::to_array(4.0 * vision::Matrix6d::Identity()));
   harness_.publish(topics::kInitialPose, click);
+  const Eigen::Isometry3d before = *conversions::to_isometry(enhanced_.back()->pose().pose());
   click.header().frame_id("base_link");
   click.pose().pose(conversions::to_pose(at(4.0, -3.0, 0.2)));
-  click.pose().covariance()[0] = 4.0;
-  click.pose().covariance()[7] = 1.0;
+  click.pose().covariance(conversions::to_array(1e-6 * vision::Matrix6d::Identity()));
+  click.pose().covariance()[0] = 4e-4;
   harness_.publish(topics::kInitialPose, click);
-  const Eigen::Isometry3d expected = at(310.0, 95.0, 0.5) * at(4.0, -3.0, 0.2);
+  const Eigen::Isometry3d expected = before * at(4.0, -3.0, 0.2);
   const auto& placed = enhanced_.back()->pose();
-  EXPECT_NEAR(placed.pose().position().x(), expected.translation().x(), 1e-6);
-  EXPECT_NEAR(placed.pose().position().y(), expected.translation().y(), 1e-6);
-  // Along and across the vehicle, which heads at 0.5 rad.
-  const Eigen::Matrix2d axes = at(0.0, 0.0, 0.5).linear().topLeftCorner<2, 2>();
-  const Eigen::Matrix2d spread = axes * Eigen::Vector2d(4.0, 1.0).asDiagonal() * axes.transpose();
-  EXPECT_NEAR(placed.covariance()[0], spread(0, 0), 0.01);
-  EXPECT_NEAR(placed.covariance()[1], spread(0, 1), 0.01);
-  EXPECT_NEAR(placed.covariance()[7], spread(1, 1), 0.01);
+  EXPECT_NEAR(placed.pose().position().x(), expected.translation().x(), 0.01);
+  EXPECT_NEAR(placed.pose().position().y(), expected.translation().y(), 0.01);
+  // Along and across the vehicle as it was.
+  const Eigen::Matrix2d axes = before.linear().topLeftCorner<2, 2>();
+  const Eigen::Matrix2d spread = axes * Eigen::Vector2d(4e-4, 1e-6).asDiagonal() * axes.transpose();
+  EXPECT_NEAR(placed.covariance()[0], spread(0, 0), 5e-5);
+  EXPECT_NEAR(placed.covariance()[1], spread(0, 1), 5e-5);
+  EXPECT_NEAR(placed.covariance()[7], spread(1, 1), 5e-5);
 }
 
 TEST_F(LocalizerComponent, SaysThatTheLandmarksMayBeOfAnotherPlace) {
