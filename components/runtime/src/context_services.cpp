@@ -33,10 +33,10 @@ void Context::open_service(ServiceDescription service, ServiceHandler handler) {
   };
   try {
     state_->host.services.add(service, state_.get(), serve);
-    state_->services.emplace_back(std::move(service), std::move(serve));
-  } catch (const ConfigError& error) {
-    state_->problems.push_back(name() + ": " + error.what());
+  } catch (const ConfigError& error) {  // as in ROS 2, two nodes may offer it
+    log().warn("{}; until then, the other one answers calls of this process", error.what());
   }
+  state_->services.emplace_back(std::move(service), std::move(serve));
 }
 
 std::shared_ptr<ServiceCaller> Context::open_client(ServiceDescription service) {
