@@ -22,8 +22,8 @@ constexpr int kMaxUnreachable = 5;  // consecutive poses: the stereo odometry wa
 constexpr double kContradicted = 0.6, kClearly = 0.25;
 constexpr double kAcceleration = 1.5, kTurnAcceleration = 0.5;  // m/s^2 and rad/s^2, usual for a vehicle
 constexpr std::size_t kMaxStereo = 2000, kMaxPanoramas = 50;
-constexpr double kOtherClock = 2.0;  // standard deviations
-constexpr double kSameTurn_rad = 0.02;
+constexpr double kOtherClock = 2.0;      // standard deviations
+constexpr double kSameTurn_rad = 0.02;   // between panoramas and stereo odometry: noise and a slightly wrong clock
 constexpr double kTurnSigma_rad = 2e-3;  // of the turn between two panoramas or stereo poses
 
 using vision::seconds;

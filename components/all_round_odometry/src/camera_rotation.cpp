@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "panvo/vision/median.hpp"
 #include "panvo/vision/pose.hpp"
 #include "panvo/vision/robust_loss.hpp"
 
@@ -21,12 +22,6 @@ constexpr double kFloor_rad = 0.003;    // error that lasts: of the stereo camer
 constexpr double kKnock = 6.0;          // standard deviations
 constexpr int kMaxKnocked = 5;          // panoramas: then the camera was rotated on its mount
 constexpr double kUnknown_rad = 0.5;    // standard deviation after that
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// Deviation of a point's bearings from the plane that contains the motion.
 struct Deviation {
@@ -62,7 +57,7 @@ void CameraRotation::add(const PointTracks& tracks, const Eigen::Isometry3d& the
     sizes.push_back(std::abs(deviations.back().error) / std::sqrt(deviations.back().variance));
   }
   // The loss is as wide as most deviations, so that a large rotation is seen, too.
-  const vision::CauchyLoss loss(std::max(2.0, 2.0 * median_of(sizes)));
+  const vision::CauchyLoss loss(std::max(2.0, 2.0 * vision::median(sizes)));
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   for (const Deviation& deviation : deviations) {

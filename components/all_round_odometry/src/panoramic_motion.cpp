@@ -166,7 +166,7 @@ int PanoramicMotion::leading_generation(const PanoramaPoints& points) const {
   return generation;
 }
 
-/// Removes references that are no longer tracked. The last panorama becomes a reference if points refer to it.
+/// Drops references that are no longer tracked, and adds the last panorama if tracks start there.
 void PanoramicMotion::take_references(const PanoramaPoints& points) {
   const auto tracks_of = [&](std::int64_t stamp_ns) {
     return std::ranges::find(points.tracks, stamp_ns, &PointTracks::from_ns) != points.tracks.end();

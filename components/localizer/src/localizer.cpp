@@ -132,6 +132,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
   clock_search_ = {};
+  clock_found_ns_ = INT64_MIN;
   graph_.set_clock_back(by_ns);
   for (auto* stamp_ns : {&unreliable_since_ns_, &doubtful_ns_, &azimuth_ns_}) {
     if (*stamp_ns) **stamp_ns -= by_ns;

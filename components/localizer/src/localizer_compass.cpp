@@ -47,7 +47,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
                                      .topLeftCorner<2, 2>()
                                      .trace();  // as stated by odometry, before it is inflated
   const bool is_contradicted = excess > 1.0;
-  if (!is_clock_known_ && is_contradicted) {
+  if (from_ns < clock_found_ns_ || (!is_clock_known_ && is_contradicted)) {
     azimuth_ns_ = to_ns;
     return AzimuthUse::kUnclear;
   }
@@ -105,6 +105,7 @@ void Localizer::search_clock(const AzimuthMeasurement& azimuth) {
   clock_ = ClockOffset(vision::ClockSearch::kSigma_s, *ahead_s);
   check_.forget();
   chain_.revert();
+  clock_found_ns_ = chain_.latest().pose.stamp_ns;
   last_from_ns_.reset();  // the times of the current reference have changed
 }
 

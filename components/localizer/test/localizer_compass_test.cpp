@@ -216,7 +216,7 @@ TEST_P(LocalizerWithOtherClock, FindsTheOffset) {
   EXPECT_LT(std::abs(error_rad), 0.005);
 }
 
-INSTANTIATE_TEST_SUITE_P(Offsets, LocalizerWithOtherClock, testing::Values(0.0, 0.06, 0.15, 0.4, -0.3, 0.45),
+INSTANTIATE_TEST_SUITE_P(Offsets, LocalizerWithOtherClock, testing::Values(0.0, 0.06, 0.15, 0.4, -0.3, 0.55),
                          [](const auto& of) { return "At" + std::to_string(of.index); });
 
 TEST(LocalizerWithCompass, SaysWhenItHasOnlyTheCompassAndWhenNothing) {

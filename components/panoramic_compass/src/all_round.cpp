@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "compass_method.hpp"
-#include "median.hpp"
 #include "panvo/panoramic_compass/point_field.hpp"
 #include "panvo/panoramic_compass/turn_fit.hpp"
 #include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/median.hpp"
 #include "panvo/vision/pose.hpp"
 #include "sector_patches.hpp"
 
@@ -226,8 +226,9 @@ class AllRound final : public PanoramicCompass::Method {
       if (azimuth > 0.0) left.push_back(moved);
       if (azimuth < 0.0) right.push_back(-moved);
     }
-    if (left.empty() || right.empty()) return left.empty() ? right.empty() ? 0.0 : median(right) : median(left);
-    return 0.5 * (median(left) + median(right));
+    if (left.empty() || right.empty())
+      return left.empty() ? right.empty() ? 0.0 : vision::median(right) : vision::median(left);
+    return 0.5 * (vision::median(left) + vision::median(right));
   }
 
   void describe_sectors(std::int64_t stamp_ns) {

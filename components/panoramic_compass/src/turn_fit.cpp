@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "median.hpp"
+#include "panvo/vision/median.hpp"
 #include "panvo/vision/pose.hpp"
 #include "panvo/vision/robust_loss.hpp"
 
@@ -152,8 +152,8 @@ class Solver {
       if (d->sine > 0.3) parallax.push_back(std::abs(d->along) / d->sine);
     }
     // 0.455: median of a squared standard normal variable
-    noise_ = across.empty() ? 1.0 : std::max(1.0, median(across) / 0.455);
-    typical_ = parallax.empty() ? 0.0 : median(parallax);
+    noise_ = across.empty() ? 1.0 : std::max(1.0, vision::median(across) / 0.455);
+    typical_ = parallax.empty() ? 0.0 : vision::median(parallax);
     spread_ = std::max(kMinSpread_rad, 3.0 * typical_);
   }
 

@@ -200,7 +200,8 @@ class Localizer {
   OdometryBuffer chain_;
   ClockOffset clock_;
   vision::ClockSearch clock_search_;
-  bool is_clock_known_;  // a large offset is excluded or was found
+  std::int64_t clock_found_ns_ = INT64_MIN;  // odometry before that was corrected at the wrong times
+  bool is_clock_known_;                      // a large offset is excluded or was found
   YawScaleFilter turn_scale_;
   YawBiasDetector lean_;
   CrossCheck check_;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace panvo::panoramic_compass {
+namespace panvo::vision {
 
 /// Median, the upper one of an even count. Requires at least one value; reorders them.
 inline double median(std::vector<double>& values) {
@@ -14,4 +14,4 @@ inline double median(std::vector<double>& values) {
   return *middle;
 }
 
-}  // namespace panvo::panoramic_compass
+}  // namespace panvo::vision
