@@ -19,7 +19,7 @@ constexpr int kSectors = 24;       // 15 degrees each
 constexpr double kSmoothing_px = 1.0;
 constexpr double kLinearBelow = 16.0;  // grey levels: linear scale below, where noise dominates
 
-float median(std::array<float, kSectors> values) {
+float median_of_sectors(std::array<float, kSectors> values) {
   std::sort(values.begin(), values.end());
   return 0.5F * (values[kSectors / 2 - 1] + values[kSectors / 2]);
 }
@@ -60,9 +60,9 @@ BandNormalisation BandNormalisation::of(const cv::Mat& band, const CyclicIntegra
     gradients[sector] = 0.5F * (statistics[1] + statistics[3]);
   }
   BandNormalisation normalisation;
-  normalisation.offset = median(means);
-  normalisation.intensity_scale = std::max(kMinIntensityScale, median(deviations));
-  normalisation.gradient_scale = std::max(kMinGradientScale, median(gradients));
+  normalisation.offset = median_of_sectors(means);
+  normalisation.intensity_scale = std::max(kMinIntensityScale, median_of_sectors(deviations));
+  normalisation.gradient_scale = std::max(kMinGradientScale, median_of_sectors(gradients));
   return normalisation;
 }
 
