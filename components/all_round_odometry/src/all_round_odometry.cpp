@@ -28,22 +28,6 @@ constexpr double kTurnSigma_rad = 2e-3;  // of the turn between two panoramas or
 
 using vision::seconds;
 
-PanoramaPoints turned(PanoramaPoints panorama, const Eigen::Matrix3d& by) {
-  panorama.now_from_then = by * panorama.now_from_then * by.transpose();
-  for (PointTracks& tracks : panorama.tracks) {
-    for (Sighting& sighting : tracks.sightings) {
-      sighting.then = by * sighting.then;
-      sighting.now = by * sighting.now;
-    }
-  }
-  return panorama;
-}
-
-void set_back(PanoramaPoints& panorama, std::int64_t by_ns) {
-  panorama.stamp_ns -= by_ns;
-  for (PointTracks& tracks : panorama.tracks) tracks.from_ns -= by_ns;
-}
-
 }  // namespace
 
 AllRoundOdometry::AllRoundOdometry(const Parameters& parameters, const Eigen::Vector3d& base_from_camera)
@@ -110,24 +94,39 @@ void AllRoundOdometry::add(PanoramaPoints panorama, bool is_stereo_silent) {
 /// The times of all panoramas so far have been wrong if there is a large offset.
 void AllRoundOdometry::search_clock(const PanoramaPoints& received) {
   if (received.tracks.empty() || stereo_.empty()) return;
-  const Eigen::Matrix3d then_from_now = received.now_from_then.transpose();
   clock_search_.add(received.tracks.front().from_ns, received.stamp_ns,
-                    {vision::so3_log(then_from_now).z(), kTurnSigma_rad * kTurnSigma_rad});
-  const auto turn_of_stereo = [this](std::int64_t from_ns,
-                                     std::int64_t to_ns) -> std::optional<vision::ClockSearch::Turn> {
-    const auto step = measured(from_ns, to_ns);
-    if (!step) return std::nullopt;
-    return vision::ClockSearch::Turn{vision::so3_log(step->linear()).z(), kTurnSigma_rad * kTurnSigma_rad};
-  };
-  const auto found = clock_search_.find(stereo_.back().stamp_ns, turn_of_stereo);
-  if (!found || blind_) return;
-  is_clock_known_ = true;
-  if (std::abs(*found - ahead_s_) < kOtherClock * vision::ClockSearch::kSigma_s) return;
+                    {turn_in(received), kTurnSigma_rad * kTurnSigma_rad});
+  if (blind_) return;
+  const auto found = clock_search_.find(stereo_.back().stamp_ns, turns_of_stereo());
+  if (!found || std::abs(*found - ahead_s_) < kOtherClock * vision::ClockSearch::kSigma_s) return;
   ahead_s_ = *found;
+  clock_doubt_.end();
   motion_ = PanoramicMotion(base_from_camera_);
   last_.reset();
   panoramas_.clear();
   panorama_ns_.reset();
+}
+
+vision::ClockSearch::Reference AllRoundOdometry::turns_of_stereo() const {
+  return [this](std::int64_t from_ns, std::int64_t to_ns) -> std::optional<vision::ClockSearch::Turn> {
+    const auto step = measured(from_ns, to_ns);
+    if (!step) return std::nullopt;
+    return vision::ClockSearch::Turn{vision::so3_log(step->linear()).z(), kTurnSigma_rad * kTurnSigma_rad};
+  };
+}
+
+/// Whether the panorama may be one of another time: before the clock is known, or if a clock that was set since explains
+/// the turns.
+void AllRoundOdometry::doubt_clock(const PanoramaPoints& panorama) {
+  const std::int64_t from_ns = panorama.tracks.front().from_ns, to_ns = panorama.stamp_ns;
+  const std::int64_t ahead_ns = vision::to_ns(ahead_s_);  // already subtracted
+  const auto turns = turns_of_stereo();
+  const auto turn = turns(from_ns, to_ns);
+  const bool is_other = turn && std::abs(turn_in(panorama) - turn->change_rad) > kSameTurn_rad;
+  if (!is_other) clock_doubt_.end();
+  is_clock_doubtful_ =
+      !clock_search_.has_found() ||
+      (is_other && clock_doubt_.add(from_ns + ahead_ns, to_ns + ahead_ns, turn_in(panorama), kSameTurn_rad, turns));
 }
 
 std::optional<AllRoundPose> AllRoundOdometry::next() {
@@ -148,6 +147,7 @@ void AllRoundOdometry::process() {
 
 void AllRoundOdometry::process(const PanoramaPoints& received) {
   if (received.tracks.empty()) return;
+  doubt_clock(received);
   const PanoramaPoints panorama = turned(received, camera_rotation_.base_from_stated());
   const std::int64_t before_ns = motion_.before_ns(panorama);
   const auto step = measured(before_ns, panorama.stamp_ns);
@@ -176,7 +176,7 @@ bool AllRoundOdometry::is_contradicted(const PanoramaPoints& panorama, const Eig
   // Panoramas of another time show another motion in a bend, but hardly another speed.
   const double by_m = seen->before_from_now.translation().norm() - step.translation().norm();
   const double usual_m_s = kAcceleration * vision::ClockSearch::kFarthest_s;
-  if (!is_clock_known_ && std::abs(by_m) < usual_m_s * interval_s) return false;
+  if (is_clock_doubtful_ && std::abs(by_m) < usual_m_s * interval_s) return false;
   return motion_.agreeing_share(panorama, seen->before_from_now).value_or(0.0) > *share + kClearly;
 }
 

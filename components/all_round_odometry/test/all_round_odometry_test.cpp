@@ -31,7 +31,7 @@ class Drive : public ::testing::Test {
     panorama.stamp_ns += late_ns_;
     panorama.now_from_then = stated_from_base_ * panorama.now_from_then * stated_from_base_.transpose();
     for (PointTracks& tracks : panorama.tracks) {
-      tracks.from_ns += late_ns_;
+      if (tracks.from_ns >= late_since_ns_) tracks.from_ns += late_ns_;
       for (Sighting& sighting : tracks.sightings) {
         sighting.then = stated_from_base_ * sighting.then;
         sighting.now = stated_from_base_ * sighting.now;
@@ -68,7 +68,7 @@ class Drive : public ::testing::Test {
   Park park_;
   AllRoundOdometry odometry_{{}, kCamera};
   StereoPose said_;
-  std::int64_t late_ns_ = 0;                                        // stamps of the panoramas
+  std::int64_t late_ns_ = 0, late_since_ns_ = 0;                    // stamps of the panoramas
   Eigen::Matrix3d stated_from_base_ = Eigen::Matrix3d::Identity();  // of the camera
   std::vector<AllRoundPose> poses_;
 };
@@ -207,6 +207,17 @@ TEST_F(Drive, FindsHowLateThePanoramasAreStamped) {
   go(61, 70, Stereo::kGood);
   EXPECT_LT(error_m(poses_.back()), 0.6);
   expect_increasing_stamps();
+}
+
+TEST_F(Drive, BelievesNoMotionOfAnotherTimeWhenTheClockIsSetOnTheWay) {
+  go(1, 40, Stereo::kGood);
+  late_ns_ = 200'000'000;
+  late_since_ns_ = Park::stamp_ns(41);
+  go(41, 90, Stereo::kGood);
+  for (const AllRoundPose& pose : poses_) ASSERT_FALSE(pose.agreeing_share) << panorama_of(pose);
+  go(91, 110, Stereo::kBlind);
+  EXPECT_TRUE(poses_.back().agreeing_share);
+  EXPECT_LT(error_m(poses_.back()), 0.6);
 }
 
 TEST_F(Drive, GoesOnAlthoughTheCameraIsRotatedOtherwiseThanStated) {

@@ -67,6 +67,14 @@ void LandmarkBuilder::keep(const PosedPanorama& panorama) {
   while (travelled_m_ - kept_.front().travelled_m > kKeepPath_m) kept_.pop_front();
 }
 
+void LandmarkBuilder::set_poses(const PoseOf& odom_from_base) {
+  std::erase_if(kept_, [&](Kept& kept) {
+    const auto pose = odom_from_base(kept.stamp_ns);
+    if (pose) kept.odom_from_base = *pose;
+    return !pose;
+  });
+}
+
 const LandmarkBuilder::Kept& LandmarkBuilder::nearest_to_stamp(std::int64_t stamp_ns) const {
   return *std::min_element(kept_.begin(), kept_.end(), [&](const Kept& a, const Kept& b) {
     return std::abs(a.stamp_ns - stamp_ns) < std::abs(b.stamp_ns - stamp_ns);

@@ -11,6 +11,7 @@
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_listener.hpp"
+#include "panvo/interfaces/time_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmark_builder/landmark_builder.hpp"
 #include "panvo/landmarks/description_settings.hpp"
@@ -52,7 +53,7 @@ struct ComponentParameters : BuilderParameters {
 /// panorama/image, odometry/binocular, /tf_static, landmarks/match -> landmarks, with the stamp of the panorama each
 /// was built from. Also reads landmarks that others, such as a store, publish. With a localizer, odometry/enhanced and
 /// landmarks/poses give the poses of vehicle and landmarks in the map; distances between panoramas always come from
-/// stereo odometry, which does not jump.
+/// stereo odometry, which does not jump; panorama/time_reference tells which stamps belong together.
 class LandmarkBuilderComponent final : public runtime::Component {
  public:
   explicit LandmarkBuilderComponent(runtime::Context& context)
@@ -67,6 +68,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_enhanced(*message); });
+    context.input(topics::kPanoramaTimeReference, [this](const auto& message) { on_time_reference(*message); });
     context.input(topics::kLandmarkMatch, [this](const auto& message) { on_match(*message); });
     context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(message); });
@@ -79,8 +81,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
     vision::Matrix6d covariance;
   };
 
-  static constexpr std::size_t kMaxOdometry = 200;  // poses kept for late panoramas
-  static constexpr std::size_t kMaxWaiting = 10;    // panoramas waiting for odometry
+  static constexpr std::size_t kMaxOdometry = 1000;  // poses: of the panoramas that the builder keeps
+  static constexpr std::size_t kMaxWaiting = 10;     // panoramas waiting for odometry
   static constexpr std::int64_t kMaxGap_ns = 1'000'000'000;
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
@@ -110,6 +112,17 @@ class LandmarkBuilderComponent final : public runtime::Component {
     const auto odometry = pose_at(conversions::stamp_ns(message));
     if (map_from_base && odometry) map_from_odom_ = *map_from_base * odometry->odom_from_base.inverse();
   }
+
+  void on_time_reference(const sensor_msgs::msg::TimeReference& message) {
+    panorama_ahead_ns_ = conversions::to_ns(message.time_ref()) - conversions::stamp_ns(message);
+    if (!builder_) return;
+    builder_->set_poses([this](std::int64_t stamp_ns) -> std::optional<Eigen::Isometry3d> {
+      const auto pose = pose_at(in_odometry_time(stamp_ns));
+      return pose ? std::optional(pose->odom_from_base) : std::nullopt;
+    });
+  }
+
+  std::int64_t in_odometry_time(std::int64_t panorama_stamp_ns) const { return panorama_stamp_ns - panorama_ahead_ns_; }
 
   void on_match(const panvo_msgs::msg::LandmarkMatch& message) {
     const bool is_passed = message.state() == panvo_msgs::msg::LandmarkMatch_Constants::MATCHED;
@@ -143,7 +156,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
   /// Processes the waiting panoramas whose pose is available.
   void work_off() {
     while (!waiting_.empty() && !odometry_.empty() &&
-           conversions::stamp_ns(*waiting_.front()) <= odometry_.back().stamp_ns) {
+           in_odometry_time(conversions::stamp_ns(*waiting_.front())) <= odometry_.back().stamp_ns) {
       const auto message = waiting_.front();
       waiting_.pop_front();
       build(*message);
@@ -156,7 +169,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
       return context_.log().warn_throttled("stamp", "{}: stamp is not later than the previous one; panorama skipped",
                                            context_.resolved_name(topics::kPanorama));
     }
-    const auto pose = pose_at(stamp_ns);
+    const auto pose = pose_at(in_odometry_time(stamp_ns));
     if (!pose) {
       return context_.log().warn_throttled("no pose", "{} has no pose near a panorama's stamp; panorama skipped",
                                            context_.resolved_name(topics::kOdometryBinocular));
@@ -235,6 +248,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
   std::map<std::uint32_t, Eigen::Vector2d> known_;  // all published landmarks, of any node
   std::map<std::uint32_t, std::int64_t> stamps_ns_;
   std::optional<std::int64_t> first_ns_;  // of the odometry
+  std::int64_t panorama_ahead_ns_ = 0;    // the panoramic camera's clock
   std::deque<Odometry> odometry_;
   Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<std::shared_ptr<const sensor_msgs::msg::Image>> waiting_;

@@ -7,6 +7,7 @@
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_buffer.hpp"
+#include "panvo/interfaces/time_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 
@@ -46,12 +47,22 @@ class LandmarkBuilderComponent : public ::testing::Test {
     harness_.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
   }
 
-  /// Drives through the crossing at the origin; odometry 20 ms before and after each panorama.
-  void drive() {
+  /// The panoramic camera's clock is 0.3 s ahead.
+  void publish_time_reference() {
+    sensor_msgs::msg::TimeReference message;
+    message.header().stamp(conversions::to_stamp(100'000'000'000));
+    message.time_ref(conversions::to_stamp(100'300'000'000));
+    harness_.publish(topics::kPanoramaTimeReference, message);
+  }
+
+  /// Drives through the crossing at the origin; odometry 20 ms before and after each panorama. With its clock ahead,
+  /// the panoramic camera stamps 0.3 s more, which becomes known at `known_m`.
+  void drive(std::optional<double> known_m = std::nullopt) {
     for (double x = -28.0; x < 24.0; x += 1.0) {
       const auto stamp_ns = static_cast<std::int64_t>(1e9 * (100.0 + 0.2 * x));
       publish_odometry(stamp_ns - 20'000'000, PaintedTown::at(x - 0.1, -1.5, 0.0));
-      publish_panorama(stamp_ns, town_.panorama(PaintedTown::at(x, -1.5, 0.0)));
+      if (x == known_m) publish_time_reference();
+      publish_panorama(stamp_ns + (known_m ? 300'000'000 : 0), town_.panorama(PaintedTown::at(x, -1.5, 0.0)));
       publish_odometry(stamp_ns + 20'000'000, PaintedTown::at(x + 0.1, -1.5, 0.0));
     }
   }
@@ -74,6 +85,25 @@ TEST_F(LandmarkBuilderComponent, PublishesALandmarkOfThePanoramaNearestToTheCros
   const double x = landmark.pose().pose().position().x();
   EXPECT_LT(std::abs(x), 4.0);
   EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(landmark)) * 1e-9, 100.0 + 0.2 * x, 1e-3);
+}
+
+TEST_F(LandmarkBuilderComponent, TakesThePoseOfTheTimeAtWhichThePanoramaWasTaken) {
+  load();
+  publish_mounting();
+  drive(-28.0);
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  const double x = landmarks_[0]->pose().pose().position().x();
+  EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(*landmarks_[0])) * 1e-9, 100.3 + 0.2 * x, 1e-3);
+}
+
+TEST_F(LandmarkBuilderComponent, ReplacesThePosesOfEarlierPanoramasWhenTheClockIsFound) {
+  load();
+  publish_mounting();
+  drive(4.0);  // the crossing is being passed
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  const double x = landmarks_[0]->pose().pose().position().x();
+  EXPECT_LT(x, 4.0);
+  EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(*landmarks_[0])) * 1e-9, 100.3 + 0.2 * x, 1e-3);
 }
 
 TEST_F(LandmarkBuilderComponent, SaysThatThereIsNoOdometry) {

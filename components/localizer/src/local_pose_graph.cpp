@@ -46,10 +46,11 @@ void LocalPoseGraph::start(const OdometrySample& at) {
   nodes_.push_back(node);
 }
 
-void LocalPoseGraph::add_built(std::uint32_t id, const OdometrySample& at) {
+void LocalPoseGraph::add_built(std::uint32_t id, std::int64_t panorama_ns, const OdometrySample& at) {
   Node node;
   node.landmark_id = id;
   node.at = at;
+  node.panorama_ns = panorama_ns;
   const auto here = carried(at.pose);
   node.map_from_base = here.map_from_base;
   node.covariance = here.covariance;
@@ -70,6 +71,7 @@ bool LocalPoseGraph::add_pass(const LandmarkSighting& sighting, const OdometrySa
   node.landmark_id = sighting.landmark_id;
   node.is_pass = true;
   node.at = at;
+  node.panorama_ns = sighting.stamp_ns;
   node.sighting = sighting;
   const auto here = carried(at.pose);
   node.map_from_base = here.map_from_base;
@@ -179,10 +181,21 @@ void LocalPoseGraph::refresh(const OdometryBuffer& chain, std::int64_t since_ns)
   }
 }
 
+void LocalPoseGraph::set_clock(const OdometryBuffer& chain, std::int64_t ahead_ns) {
+  for (auto& node : nodes_) {
+    if (node.landmark_id == 0 || node.is_of_earlier_day) continue;
+    const auto at = chain.at(node.panorama_ns - ahead_ns);
+    if (!at) continue;
+    node.map_from_base = node.map_from_base * (node.at.pose.odom_from_base.inverse() * at->pose.odom_from_base);
+    node.at = *at;
+  }
+}
+
 void LocalPoseGraph::set_clock_back(std::int64_t by_ns) {
   for (auto& node : nodes_) {
     if (node.is_of_earlier_day) continue;
     node.at.pose.stamp_ns -= by_ns;
+    node.panorama_ns -= by_ns;
     node.sighting.stamp_ns -= by_ns;
   }
   for (auto& cut_ns : cuts_ns_) cut_ns -= by_ns;

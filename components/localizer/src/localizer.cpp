@@ -48,7 +48,6 @@ Localizer::Localizer(const Parameters& parameters)
       origin_(parameters.max_speed_m_s),
       chain_(parameters.history_s),
       clock_(parameters.clock_sigma_s),
-      is_clock_known_(parameters.clock_sigma_s == 0.0),
       turn_scale_(parameters.turn_scale_sigma),
       lean_(parameters.lean_window_s, parameters.lean_sigmas),
       check_(parameters),
@@ -117,7 +116,7 @@ void Localizer::forget_start(const std::optional<PoseInMap>& last, std::string r
 bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
   const auto at = chain_.at(in_odometry_time(stamp_ns));
   if (!at) return false;
-  graph_.add_built(id, *at);
+  graph_.add_built(id, stamp_ns, *at);
   return true;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "panvo/localizer/soundness.hpp"
 #include "panvo/vision/angle.hpp"
@@ -18,6 +17,7 @@ constexpr double kMaxInflation =
 constexpr double kClockCaution = 9.0;  // odometry sometimes errs by more than stated, especially while turning
 constexpr double kUnknownClock_s = 0.3;  // offset, before it was searched: latency of a video stream
 constexpr double kStraight = 0.02;       // rad/s: another time makes no difference
+constexpr double kAgree = 2.0;           // standard deviations: turns at another time
 constexpr double kOtherClock = 2.0;      // standard deviations: the filter follows smaller differences
 constexpr double kScaleCaution = 4.0;    // compass errors are correlated over some seconds, e.g. in a bend
 
@@ -38,7 +38,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const double rate_change = twist_then && twist_now ? (*twist_now)[vision::kYaw] - (*twist_then)[vision::kYaw] : 0.0;
   const double missed_rad = parameters_.compass_turn_error_ratio * azimuth.change_rad;
   const double measured_variance = azimuth.variance_rad2 + missed_rad * missed_rad;
-  const double clock_variance_s2 = clock_.variance_s2() + (is_clock_known_ ? 0.0 : kUnknownClock_s * kUnknownClock_s);
+  const double clock_variance_s2 = clock_.variance_s2() + (is_clock_known() ? 0.0 : kUnknownClock_s * kUnknownClock_s);
   const double compass_variance = measured_variance + rate_change * rate_change * clock_variance_s2;
   const double spread = compass_variance + turn->said_variance_rad2;
   const double excess =
@@ -47,7 +47,8 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
                                      .topLeftCorner<2, 2>()
                                      .trace();  // as stated by odometry, before it is inflated
   const bool is_contradicted = excess > 1.0;
-  if (from_ns < clock_found_ns_ || (!is_clock_known_ && is_contradicted)) {
+  if (!is_contradicted) clock_doubt_.end();
+  if (from_ns < clock_found_ns_ || (is_contradicted && may_be_of_another_time(azimuth, kAgree * std::sqrt(spread)))) {
     azimuth_ns_ = to_ns;
     return AzimuthUse::kUnclear;
   }
@@ -64,7 +65,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const double turn_rate = azimuth.change_rad / vision::seconds(from_ns, to_ns);
   const bool is_straight = std::max(std::abs(turn_rate), std::abs(rate_change)) < kStraight;
   std::optional<YawBiasDetector::Stretch> lean;
-  if (is_contradicted || !(is_clock_known_ || is_straight)) {
+  if (is_contradicted || !(is_clock_known() || is_straight)) {
     lean_.forget();
   } else {
     lean = add_to_lean({.from_ns = from_ns,
@@ -87,26 +88,45 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
 }
 
-/// Finds an offset of the panoramic camera's clock that is too large for the filter.
-void Localizer::search_clock(const AzimuthMeasurement& azimuth) {
-  if (parameters_.clock_sigma_s == 0.0) return;
-  clock_search_.add(azimuth.from_ns, azimuth.to_ns, {azimuth.change_rad, azimuth.variance_rad2});
-  const auto turn_of_odometry = [this](std::int64_t from_ns,
-                                       std::int64_t to_ns) -> std::optional<vision::ClockSearch::Turn> {
+/// Adds a turn that contradicts the odometry. Returns whether it may be one at another time: before the clock is known,
+/// or if a clock that was set since explains it.
+bool Localizer::may_be_of_another_time(const AzimuthMeasurement& azimuth, double within_rad) {
+  if (parameters_.clock_sigma_s == 0.0) return false;
+  return !is_clock_known() ||
+         clock_doubt_.add(azimuth.from_ns, azimuth.to_ns, azimuth.change_rad, within_rad, turns_of_odometry());
+}
+
+vision::ClockSearch::Reference Localizer::turns_of_odometry() const {
+  return [this](std::int64_t from_ns, std::int64_t to_ns) -> std::optional<vision::ClockSearch::Turn> {
     const auto turn = chain_.turn(from_ns, to_ns);
     const auto raw_rad = chain_.raw_turn(from_ns, to_ns);
     if (!turn || !raw_rad) return std::nullopt;
     return vision::ClockSearch::Turn{*raw_rad, turn->said_variance_rad2};
   };
-  const auto ahead_s = clock_search_.find(chain_.latest().pose.stamp_ns, turn_of_odometry);
+}
+
+/// Finds an offset of the panoramic camera's clock that is too large for the filter.
+void Localizer::search_clock(const AzimuthMeasurement& azimuth) {
+  if (parameters_.clock_sigma_s == 0.0) return;
+  clock_search_.add(azimuth.from_ns, azimuth.to_ns, {azimuth.change_rad, azimuth.variance_rad2});
+  const bool was_known = is_clock_known();
+  const auto ahead_s = clock_search_.find(chain_.latest().pose.stamp_ns, turns_of_odometry());
   if (!ahead_s) return;
-  const bool was_known = std::exchange(is_clock_known_, true);
   if (was_known && std::abs(*ahead_s - clock_.estimate_s()) < kOtherClock * vision::ClockSearch::kSigma_s) return;
-  clock_ = ClockOffset(vision::ClockSearch::kSigma_s, *ahead_s);
+  set_clock(*ahead_s);
+}
+
+/// What panoramas have shown so far belongs to other times.
+void Localizer::set_clock(double ahead_s) {
+  clock_ = ClockOffset(vision::ClockSearch::kSigma_s, ahead_s);
   check_.forget();
   chain_.revert();
   clock_found_ns_ = chain_.latest().pose.stamp_ns;
-  last_from_ns_.reset();  // the times of the current reference have changed
+  clock_doubt_.end();
+  last_from_ns_.reset();
+  graph_.set_clock(chain_, clock_.estimate_ns());
+  graph_.solve();
+  latest_ = localized(chain_.latest().pose);
 }
 
 /// Turns against one reference panorama share its error: the latest, longest one replaces those before.

@@ -19,6 +19,7 @@
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/time_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/localizer/localizer.hpp"
 #include "panvo/localizer/odometry_origin.hpp"
@@ -34,7 +35,7 @@ namespace panvo::localizer {
 
 /// odometry/binocular, odometry/quality, compass/azimuth_change, correction, landmarks, gnss/fix, /initialpose ->
 /// odometry/enhanced, /tf, localization/state, localization/integrity, correction/outcome, landmarks/poses, path/*,
-/// gnss/enhanced. Odometry waits for its quality; measurements of a panorama wait until odometry reaches its stamp.
+/// panorama/time_reference, gnss/enhanced. Odometry waits for its quality; measurements of a panorama wait until odometry reaches its stamp.
 class LocalizerComponent final : public runtime::Component {
  public:
   explicit LocalizerComponent(runtime::Context& context)
@@ -50,6 +51,7 @@ class LocalizerComponent final : public runtime::Component {
         satellites_(context, parameters_, localizer_),
         outcome_(context.output(topics::kCorrectionOutcome)),
         poses_(context.output(topics::kLandmarkPoses)),
+        panorama_time_(context.output(topics::kPanoramaTimeReference)),
         path_binocular_output_(context.output(topics::kPathBinocular)),
         path_enhanced_output_(context.output(topics::kPathEnhanced)) {
     context.input(topics::kOdometryQuality, [this](const auto& message) {
@@ -70,6 +72,7 @@ class LocalizerComponent final : public runtime::Component {
  private:
   static constexpr int kTick_ms = 100;
   static constexpr std::int64_t kInterval_ns = 40'000'000;  // between two odometry messages, if stamps do not give it
+  static constexpr std::int64_t kNotableOffset_ns = 20'000'000;  // a vehicle moves a few centimetres in that time
   static constexpr double kNoPanorama_s = 10.0;
   static constexpr double kUnlocatedFor_m = 500.0;  // by then a mapped place should have been passed
 
@@ -261,6 +264,7 @@ class LocalizerComponent final : public runtime::Component {
     }
     was_contradicted_ = is_contradicted;
     notices_.report_clock(localizer_.panorama_clock());
+    publish_panorama_time(azimuth.to_ns);
     notices_.report_direction(localizer_.direction_offset());
   }
 
@@ -288,6 +292,16 @@ class LocalizerComponent final : public runtime::Component {
       context_.log().warn_throttled("landmark without odometry", "landmark {}: no odometry stored for its stamp",
                                     built.id);
     }
+  }
+
+  /// A large offset of the panoramic camera's clock, when it was found or has changed. Landmarks have moved with it.
+  void publish_panorama_time(std::int64_t panorama_ns) {
+    const std::int64_t ahead_ns = localizer_.panorama_clock().estimate_ns();
+    if (!localizer_.is_clock_known() || std::abs(ahead_ns - panorama_ahead_ns_) < kNotableOffset_ns) return;
+    panorama_ahead_ns_ = ahead_ns;
+    panorama_time_.publish(to_time_reference(panorama_ns - ahead_ns, panorama_ns));
+    publish_landmarks(panorama_ns);
+    has_learned_ = true;
   }
 
   void publish_landmarks(std::int64_t stamp_ns) {
@@ -328,6 +342,7 @@ class LocalizerComponent final : public runtime::Component {
   Satellites satellites_;
   runtime::Output<panvo_msgs::msg::CorrectionOutcome> outcome_;
   runtime::Output<panvo_msgs::msg::LandmarkPoses> poses_;
+  runtime::Output<sensor_msgs::msg::TimeReference> panorama_time_;
   runtime::Output<nav_msgs::msg::Path> path_binocular_output_, path_enhanced_output_;
 
   PanoramaQueue waiting_;
@@ -336,7 +351,8 @@ class LocalizerComponent final : public runtime::Component {
   std::int64_t odometry_at_ns_ = 0;       // arrival of the last message
   std::shared_ptr<const nav_msgs::msg::Odometry> last_odometry_;
   std::optional<std::int64_t> azimuth_ns_;
-  bool has_learned_ = false;  // not published yet
+  std::int64_t panorama_ahead_ns_ = 0;  // as published
+  bool has_learned_ = false;            // not published yet
   int unused_ = 0;
   bool was_contradicted_ = false;
 };

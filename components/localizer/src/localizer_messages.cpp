@@ -134,6 +134,14 @@ panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, std::int6
   return message;
 }
 
+sensor_msgs::msg::TimeReference to_time_reference(std::int64_t odometry_ns, std::int64_t panorama_ns) {
+  sensor_msgs::msg::TimeReference message;
+  message.header().stamp(conversions::to_stamp(odometry_ns));
+  message.time_ref(conversions::to_stamp(panorama_ns));
+  message.source("panoramic camera");
+  return message;
+}
+
 conversions::Result<LandmarkSighting> to_sighting(const panvo_msgs::msg::PositionCorrection& message) {
   const auto pose = conversions::to_isometry(message.landmark_from_base().pose());
   if (!pose) return conversions::Reason{pose.reason()};

@@ -15,6 +15,7 @@
 #include "panvo_msgs/msg/LandmarkPoses.h"
 #include "panvo_msgs/msg/LocalizationState.h"
 #include "panvo_msgs/msg/PositionCorrection.h"
+#include "sensor_msgs/msg/TimeReference.h"
 #include "tf2_msgs/msg/TFMessage.h"
 
 /// Conversions between the localizer's types and messages.
@@ -37,6 +38,8 @@ panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, std::int6
                                             const std::string& map_frame);
 panvo_msgs::msg::Integrity to_integrity(const LocalizedPose& pose, const std::vector<Doubt>& doubts,
                                         const IntegrityParameters& parameters, const std::string& map_frame);
+/// One moment by the clocks of the odometry and of the panoramic camera.
+sensor_msgs::msg::TimeReference to_time_reference(std::int64_t odometry_ns, std::int64_t panorama_ns);
 
 /// The reason names values that are not finite.
 conversions::Result<LandmarkSighting> to_sighting(const panvo_msgs::msg::PositionCorrection& message);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "panvo/vision/angle.hpp"
+
 namespace panvo::localizer {
 namespace {
 
@@ -56,24 +58,22 @@ ExtrinsicsMonitor after_passes(int passes, const Mounted& mounted, double turn_r
   return check;
 }
 
-constexpr double kDegree = M_PI / 180.0;
-
 constexpr double kQuarterTurn = M_PI / 2.0;
 
 TEST(ExtrinsicsMonitor, FindsACameraThatIsTurnedByFiveDegrees) {
   for (const double sign : {1.0, -1.0}) {
-    const auto found = after_passes(3, {.yaw_rad = sign * 5.0 * kDegree}).misalignment();
+    const auto found = after_passes(3, {.yaw_rad = sign * 5.0 * vision::kDegree}).misalignment();
     ASSERT_TRUE(found && found->is_turned);
-    EXPECT_NEAR(found->yaw_rad, sign * 5.0 * kDegree, 1.0 * kDegree);
-    EXPECT_NEAR(found->pitch_rad, 0.0, 1.0 * kDegree);
+    EXPECT_NEAR(found->yaw_rad, sign * 5.0 * vision::kDegree, 1.0 * vision::kDegree);
+    EXPECT_NEAR(found->pitch_rad, 0.0, 1.0 * vision::kDegree);
     EXPECT_FALSE(found->is_displaced);
   }
 }
 
 TEST(ExtrinsicsMonitor, FindsACameraThatIsTiltedByFiveDegrees) {
-  const auto down = after_passes(3, {.pitch_rad = 5.0 * kDegree}).misalignment();
+  const auto down = after_passes(3, {.pitch_rad = 5.0 * vision::kDegree}).misalignment();
   ASSERT_TRUE(down && down->is_turned);
-  EXPECT_NEAR(down->pitch_rad, 5.0 * kDegree, 1.0 * kDegree);
+  EXPECT_NEAR(down->pitch_rad, 5.0 * vision::kDegree, 1.0 * vision::kDegree);
 }
 
 TEST(ExtrinsicsMonitor, FindsACameraThatSitsElsewhereByWhereItSwingsInTurns) {
@@ -85,9 +85,9 @@ TEST(ExtrinsicsMonitor, FindsACameraThatSitsElsewhereByWhereItSwingsInTurns) {
 }
 
 TEST(ExtrinsicsMonitor, TellsTurnedFromDisplaced) {
-  const auto found = after_passes(8, {.yaw_rad = 5.0 * kDegree, .left_m = 0.2}, kQuarterTurn).misalignment();
+  const auto found = after_passes(8, {.yaw_rad = 5.0 * vision::kDegree, .left_m = 0.2}, kQuarterTurn).misalignment();
   ASSERT_TRUE(found && found->is_turned && found->is_displaced);
-  EXPECT_NEAR(found->yaw_rad, 5.0 * kDegree, 1.0 * kDegree);
+  EXPECT_NEAR(found->yaw_rad, 5.0 * vision::kDegree, 1.0 * vision::kDegree);
   EXPECT_NEAR(found->left_m, 0.2, 0.06);
 }
 

@@ -36,7 +36,7 @@ LandmarkSighting sighting_in_lap(int lap) {
 TEST(LocalPoseGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
   LocalPoseGraph graph(0.01, 0.001, 0.0, {});
   graph.start({});
-  graph.add_built(1, in_lap(0));
+  graph.add_built(1, in_lap(0).pose.stamp_ns, in_lap(0));
   std::size_t after_ten = 0;
   for (int lap = 1; lap <= 60; ++lap) {
     ASSERT_TRUE(graph.add_pass(sighting_in_lap(lap), in_lap(lap), 20.0)) << lap;
@@ -60,7 +60,7 @@ TEST(LocalPoseGraph, RenewsTheCovariancesNearTheVehicleInALargeMap) {
     return sample;
   };
   graph.start(at_metre(0.0));
-  for (int i = 1; i <= kLandmarks; ++i) graph.add_built(static_cast<std::uint32_t>(i), at_metre(10.0 * i));
+  for (int i = 1; i <= kLandmarks; ++i) graph.add_built(static_cast<std::uint32_t>(i), 0, at_metre(10.0 * i));
   const auto sigma_m = [&](std::uint32_t id) { return std::sqrt(graph.landmark(id)->covariance(0, 0)); };
   const double far_m = sigma_m(20), near_m = sigma_m(245);
   LandmarkSighting sighting;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/localizer/localizer.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <string>
 #include <utility>
@@ -183,41 +186,90 @@ TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {
   EXPECT_NEAR(position_variance(true), told_once, 0.2 * told_once);
 }
 
+/// A vehicle at 2 m/s that turns left and right alternately, and panoramas of every fifth frame.
+struct Winding {
+  static constexpr double kSpeed = 2.0;   // m/s
+  static constexpr double kLate_s = 0.6;  // arrival of panoramas
+
+  static double yaw(double t) { return 0.3 * std::sin(1.3 * t); }
+  static std::int64_t ns(double t) { return static_cast<std::int64_t>(std::llround(t * 1e9)); }
+
+  /// Drives from frame to frame; `extra_rad`: a turn of the odometry that is none.
+  void drive(int from, int to, double ahead_s, const std::function<double(double)>& extra_rad = {}) {
+    for (int i = from; i < to; ++i) {
+      const double t = 100.0 + 0.04 * i;
+      const OdometryPose before = std::exchange(odometry, {});
+      odometry.stamp_ns = ns(t);
+      odometry.odom_from_base.translation().x() = kSpeed * (t - 100.0);
+      odometry.odom_from_base.linear() =
+          vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw(t) + (extra_rad ? extra_rad(t) : 0.0)));
+      odometry.covariance = vision::compose_covariance(before.odom_from_base, before.covariance,
+                                                       before.odom_from_base.inverse() * odometry.odom_from_base,
+                                                       4e-8 * vision::Matrix6d::Identity());
+      localizer.add(odometry);
+      if (i % 5 != 0 || i < 40) continue;
+      const double taken = t - kLate_s;
+      uses.push_back(localizer.add(
+          AzimuthMeasurement{ns(taken - 0.2 + ahead_s), ns(taken + ahead_s), yaw(taken) - yaw(taken - 0.2), 1e-6}));
+    }
+  }
+
+  Localizer localizer{{}};
+  OdometryPose odometry;  // last
+  std::vector<AzimuthUse> uses;
+};
+
 /// Offset of the panoramic camera's clock, s.
 class LocalizerWithOtherClock : public testing::TestWithParam<double> {};
 
 TEST_P(LocalizerWithOtherClock, FindsTheOffset) {
+  constexpr double kBuilt_s = 101.2;
   const double offset_s = GetParam();
-  Drive drive(13);
-  Localizer localizer({});
-  localizer.add(drive.now());
-  // odometry and truth at any time, for a drive that turns left and right alternately
-  const auto yaw = [](double t) { return 0.3 * std::sin(1.3 * t); };
-  const auto pose = [&](double t) {
-    OdometryPose odometry;
-    odometry.stamp_ns = static_cast<std::int64_t>(std::llround(t * 1e9));
-    odometry.odom_from_base.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw(t)));
-    odometry.covariance = 1e-6 * (1.0 + t) * vision::Matrix6d::Identity();
-    return odometry;
-  };
-  for (int i = 1; i < 500; ++i) {
-    const double t = 100.0 + 0.04 * i;
-    localizer.add(pose(t));
-    if (i % 5 != 0 || i < 40) continue;
-    const double taken = t - 0.6;  // stamped later than taken
-    const auto stamp = [&](double at) { return static_cast<std::int64_t>(std::llround((at + offset_s) * 1e9)); };
-    const auto use =
-        localizer.add(AzimuthMeasurement{stamp(taken - 0.2), stamp(taken), yaw(taken) - yaw(taken - 0.2), 1e-6});
-    EXPECT_TRUE(use == AzimuthUse::kFused || (use == AzimuthUse::kUnclear && i < 250)) << i;
-  }
+  Winding winding;
+  const Localizer& localizer = winding.localizer;
+  winding.drive(1, 51, offset_s);
+  EXPECT_TRUE(winding.localizer.add_built(1, Winding::ns(kBuilt_s + offset_s)));
+  winding.drive(51, 260, offset_s);
+  for (const auto use : winding.uses) EXPECT_TRUE(use == AzimuthUse::kFused || use == AzimuthUse::kUnclear);
+  winding.uses.clear();
+  winding.drive(260, 500, offset_s);
+  EXPECT_THAT(winding.uses, testing::Each(AzimuthUse::kFused));
   EXPECT_NEAR(localizer.panorama_clock().estimate_s(), offset_s, 0.003);
   EXPECT_LT(localizer.panorama_clock().variance_s2(), 0.006 * 0.006);
-  const double error_rad = yaw_of(localizer.latest().map_from_base.linear()) - yaw(119.96);
+  const double error_rad = yaw_of(localizer.latest().map_from_base.linear()) - Winding::yaw(119.96);
   EXPECT_LT(std::abs(error_rad), 0.005);
+  const auto& built = localizer.landmarks().at(0).map_from_base;
+  EXPECT_NEAR(built.translation().x(), Winding::kSpeed * (kBuilt_s - 100.0), 0.02) << "before the offset was known";
 }
 
 INSTANTIATE_TEST_SUITE_P(Offsets, LocalizerWithOtherClock, testing::Values(0.0, 0.06, 0.15, 0.4, -0.3, 0.55),
                          [](const auto& of) { return "At" + std::to_string(of.index); });
+
+TEST(LocalizerWithCompass, BelievesNoTurnOfAnotherTimeWhenTheClockIsSetOnTheWay) {
+  Winding winding;
+  winding.drive(1, 500, 0.0);
+  for (const double ahead_s : {0.2, -0.2}) {
+    Winding set = winding;
+    set.uses.clear();
+    set.drive(500, 900, ahead_s);
+    EXPECT_THAT(set.uses, testing::Not(testing::Contains(AzimuthUse::kContradicted)));
+    EXPECT_THAT(set.uses, testing::Contains(AzimuthUse::kUnclear));
+    EXPECT_NEAR(set.localizer.panorama_clock().estimate_s(), ahead_s, 0.003);
+    const double error_rad = yaw_of(set.localizer.latest().map_from_base.linear()) - Winding::yaw(135.96);
+    EXPECT_LT(std::abs(error_rad), 0.01);
+  }
+}
+
+TEST(LocalizerWithCompass, BelievesTheCompassWhereOdometryTurnsAsAtNoOtherTime) {
+  Winding winding;
+  winding.drive(1, 500, 0.0);
+  winding.uses.clear();
+  // a bus that fills the view turns away
+  winding.drive(500, 600, 0.0, [](double t) { return 0.5 * std::clamp(t - 121.0, 0.0, 1.0); });
+  EXPECT_THAT(winding.uses, testing::Contains(AzimuthUse::kContradicted).Times(testing::Ge(4))) << "in one second";
+  const double error_rad = yaw_of(winding.localizer.latest().map_from_base.linear()) - Winding::yaw(123.96);
+  EXPECT_LT(std::abs(error_rad), 0.12) << "odometry errs by 0.5 rad, of which one panorama misses 0.1";
+}
 
 TEST(LocalizerWithCompass, SaysWhenItHasOnlyTheCompassAndWhenNothing) {
   Drive drive(16);

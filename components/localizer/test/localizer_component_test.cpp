@@ -6,10 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "panvo/conversions/pose.hpp"
-#include "panvo/conversions/time.hpp"
-#include "panvo/interfaces/topics.hpp"
-#include "panvo/runtime/testing.hpp"
+#include "localizer_on_topics.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -17,105 +14,12 @@ namespace {
 namespace states = panvo_msgs::msg::LocalizationState_Constants;
 namespace outcomes = panvo_msgs::msg::CorrectionOutcome_Constants;
 
-using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
 
-constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
-constexpr std::int64_t kPeriod_ns = 40'000'000;
-
-Eigen::Isometry3d at(double x, double y, double yaw) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = Eigen::Vector3d(x, y, 0.0);
-  pose.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return pose;
-}
-
-class LocalizerComponent : public ::testing::Test {
- protected:
-  void load(const std::map<std::string, std::string>& parameters = {}) {
-    harness_.load("panvo_localizer", "LocalizerComponent", parameters);
-  }
-
-  static std::int64_t stamp(int frame) { return kBegin_ns + frame * kPeriod_ns; }
-
-  void publish_odometry(int frame, const Eigen::Isometry3d& pose, double variance) {
-    nav_msgs::msg::Odometry odometry;
-    odometry.header().stamp(conversions::to_stamp(stamp(frame)));
-    odometry.header().frame_id("odom");
-    odometry.child_frame_id("base_link");
-    odometry.pose().pose(conversions::to_pose(pose));
-    odometry.pose().covariance(conversions::to_array(variance * vision::Matrix6d::Identity()));
-    odometry.twist().twist().linear().x(5.0);
-    harness_.publish(topics::kOdometryBinocular, odometry);
-  }
-
-  /// Drives straight, 0.2 m per frame.
-  void drive(int from, int to) {
-    for (int i = from; i < to; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), 1e-4 + 1e-4 * i);
-  }
-
-  void publish_quality(int frame, bool is_reliable, double inlier_ratio) {
-    panvo_msgs::msg::OdometryQuality quality;
-    quality.header().stamp(conversions::to_stamp(stamp(frame)));
-    quality.reliable(is_reliable);
-    quality.inlier_ratio(inlier_ratio);
-    harness_.publish(topics::kOdometryQuality, quality);
-  }
-  void drive_with_quality(int from, int to, bool is_reliable) {
-    for (int i = from; i < to; ++i) {
-      publish_quality(i, is_reliable, 0.0);
-      drive(i, i + 1);
-    }
-  }
-
-  void publish_landmark(std::uint32_t id, std::int64_t stamp_ns, const Eigen::Isometry3d& pose) {
-    panvo_msgs::msg::PanoramicLandmark landmark;
-    landmark.header().stamp(conversions::to_stamp(stamp_ns));
-    landmark.id(id);
-    landmark.histogram({1.0F});
-    landmark.pose().pose(conversions::to_pose(pose));
-    landmark.pose().covariance(conversions::to_array(1e-4 * vision::Matrix6d::Identity()));
-    harness_.publish(topics::kLandmarks, landmark);
-  }
-
-  void publish_correction(std::uint32_t id, std::int64_t stamp_ns, const Eigen::Isometry3d& landmark_from_base,
-                          std::uint8_t state = panvo_msgs::msg::PositionCorrection_Constants::FULL) {
-    panvo_msgs::msg::PositionCorrection correction;
-    correction.header().stamp(conversions::to_stamp(stamp_ns));
-    correction.landmark_id(id);
-    correction.state(state);
-    correction.landmark_from_base().pose(conversions::to_pose(landmark_from_base));
-    correction.landmark_from_base().covariance(conversions::to_array(1e-4 * vision::Matrix6d::Identity()));
-    harness_.publish(topics::kCorrection, correction);
-  }
-
-  void publish_azimuth(std::int64_t from_ns, std::int64_t to_ns, double change_rad) {
-    panvo_msgs::msg::AzimuthChange change;
-    change.header().stamp(conversions::to_stamp(to_ns));
-    change.from_stamp(conversions::to_stamp(from_ns));
-    change.azimuth_change_rad(change_rad);
-    change.variance_rad2(1e-6);
-    change.valid(true);
-    harness_.publish(topics::kAzimuthChange, change);
-  }
-
-  runtime::ComponentHarness harness_;
-  const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& enhanced_ =
-      harness_.collect(topics::kOdometryEnhanced);
-  const std::vector<std::shared_ptr<const tf2_msgs::msg::TFMessage>>& tf_ = harness_.collect(topics::kTf);
-  const std::vector<std::shared_ptr<const panvo_msgs::msg::LocalizationState>>& states_ =
-      harness_.collect(topics::kLocalizationState);
-  const std::vector<std::shared_ptr<const panvo_msgs::msg::CorrectionOutcome>>& outcomes_ =
-      harness_.collect(topics::kCorrectionOutcome);
-  const std::vector<std::shared_ptr<const panvo_msgs::msg::LandmarkPoses>>& poses_ =
-      harness_.collect(topics::kLandmarkPoses);
-  const std::vector<std::shared_ptr<const nav_msgs::msg::Path>>& paths_ = harness_.collect(topics::kPathEnhanced);
-};
-
-TEST_F(LocalizerComponent, PublishesPoseAndFramesWithEachOdometry) {
+TEST_F(LocalizerOnTopics, PublishesPoseAndFramesWithEachOdometry) {
   load();
   drive(0, 51);
   ASSERT_THAT(enhanced_, SizeIs(51));
@@ -136,7 +40,7 @@ TEST_F(LocalizerComponent, PublishesPoseAndFramesWithEachOdometry) {
   EXPECT_EQ(states_.back()->state(), states::TRACKING);
 }
 
-TEST_F(LocalizerComponent, CorrectsThePositionAndSaysByHowMuch) {
+TEST_F(LocalizerOnTopics, CorrectsThePositionAndSaysByHowMuch) {
   load({{"fusion.clock_sigma_s", "0"}});
   drive(0, 51);
   publish_landmark(1, stamp(25), at(5.0, 0.0, 0.0));
@@ -157,7 +61,7 @@ TEST_F(LocalizerComponent, CorrectsThePositionAndSaysByHowMuch) {
 }
 
 /// Messages that, unchecked, would block or stop it for good; it continues with the next ones.
-TEST_F(LocalizerComponent, GoesOnAfterMessagesThatNoSensorSends) {
+TEST_F(LocalizerOnTopics, GoesOnAfterMessagesThatNoSensorSends) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   vision::Matrix6d indefinite = 1e-4 * vision::Matrix6d::Identity();
   indefinite(0, 1) = indefinite(1, 0) = 1.0;
@@ -210,7 +114,7 @@ TEST_F(LocalizerComponent, GoesOnAfterMessagesThatNoSensorSends) {
   EXPECT_THAT(harness_.container().run(), IsEmpty());
 }
 
-TEST_F(LocalizerComponent, WaitsForOdometryThatIsBehindAPanorama) {
+TEST_F(LocalizerOnTopics, WaitsForOdometryThatIsBehindAPanorama) {
   load();
   drive(0, 10);
   publish_landmark(1, stamp(5), at(1.0, 0.0, 0.0));
@@ -220,7 +124,7 @@ TEST_F(LocalizerComponent, WaitsForOdometryThatIsBehindAPanorama) {
   ASSERT_THAT(outcomes_, SizeIs(1));
 }
 
-TEST_F(LocalizerComponent, WaitsForNoOdometryWhereAPanoramaIsAMomentLaterThanTheLast) {
+TEST_F(LocalizerOnTopics, WaitsForNoOdometryWhereAPanoramaIsAMomentLaterThanTheLast) {
   load({{"fusion.clock_sigma_s", "0"}});
   drive(0, 13);
   publish_landmark(1, stamp(5), at(1.0, 0.0, 0.0));
@@ -237,7 +141,7 @@ TEST_F(LocalizerComponent, WaitsForNoOdometryWhereAPanoramaIsAMomentLaterThanThe
       << "the next pose includes it";
 }
 
-TEST_F(LocalizerComponent, TakesNoRejectedCorrection) {
+TEST_F(LocalizerOnTopics, TakesNoRejectedCorrection) {
   load();
   drive(0, 10);
   publish_landmark(1, stamp(5), at(1.0, 0.0, 0.0));
@@ -245,7 +149,7 @@ TEST_F(LocalizerComponent, TakesNoRejectedCorrection) {
   EXPECT_THAT(outcomes_, IsEmpty());
 }
 
-TEST_F(LocalizerComponent, DoesNotKnowWhereItIsInAMapOfAnEarlierDayUntilTwoPanoramasSaySo) {
+TEST_F(LocalizerOnTopics, DoesNotKnowWhereItIsInAMapOfAnEarlierDayUntilTwoPanoramasSaySo) {
   load();
   publish_landmark(9, kBegin_ns - 86'400'000'000'000, at(300.0, 100.0, 1.0));
   drive(0, 20);
@@ -264,57 +168,7 @@ TEST_F(LocalizerComponent, DoesNotKnowWhereItIsInAMapOfAnEarlierDayUntilTwoPanor
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), expected.y(), 0.1);
 }
 
-TEST_F(LocalizerComponent, IsWhereAClickOnTheMapSays) {
-  load();
-  publish_landmark(9, kBegin_ns - 86'400'000'000'000, at(300.0, 100.0, 1.0));
-  geometry_msgs::msg::PoseWithCovarianceStamped click;
-  click.header().frame_id("map");
-  click.pose().pose(conversions::to_pose(at(310.0, 95.0, 0.5)));
-  click.pose().covariance()[0] = click.pose().covariance()[7] = 0.25;
-  click.pose().covariance()[35] = 0.0685;
-  harness_.publish(topics::kInitialPose, click);
-  EXPECT_THAT(harness_.log(), Contains(HasSubstr("no odometry received yet")));
-  drive(0, 20);
-  EXPECT_EQ(states_.back()->state(), states::UNLOCATED);
-  click.header().frame_id("odom");
-  harness_.publish(topics::kInitialPose, click);
-  EXPECT_THAT(harness_.log(), Contains(HasSubstr("expected 'map' or 'base_link'")));
-  click.header().frame_id("map");
-  harness_.publish(topics::kInitialPose, click);
-  EXPECT_EQ(states_.back()->state(), states::RELOCALISED);
-  drive(20, 21);
-  const Eigen::Vector3d expected = at(310.0, 95.0, 0.5) * Eigen::Vector3d(0.2, 0.0, 0.0);
-  EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), expected.x(), 0.01);
-  EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), expected.y(), 0.01);
-}
-
-TEST_F(LocalizerComponent, IsWhereAClickRelativeToTheVehicleSays) {
-  load();
-  drive(0, 20);
-  geometry_msgs::msg::PoseWithCovarianceStamped click;
-  click.header().frame_id("map");
-  click.pose().pose(conversions::to_pose(at(310.0, 95.0, 0.5)));
-  click.pose().covariance(conversions::to_array(4.0 * vision::Matrix6d::Identity()));
-  harness_.publish(topics::kInitialPose, click);
-  const Eigen::Isometry3d before = *conversions::to_isometry(enhanced_.back()->pose().pose());
-  click.header().frame_id("base_link");
-  click.pose().pose(conversions::to_pose(at(4.0, -3.0, 0.2)));
-  click.pose().covariance(conversions::to_array(1e-6 * vision::Matrix6d::Identity()));
-  click.pose().covariance()[0] = 4e-4;
-  harness_.publish(topics::kInitialPose, click);
-  const Eigen::Isometry3d expected = before * at(4.0, -3.0, 0.2);
-  const auto& placed = enhanced_.back()->pose();
-  EXPECT_NEAR(placed.pose().position().x(), expected.translation().x(), 0.01);
-  EXPECT_NEAR(placed.pose().position().y(), expected.translation().y(), 0.01);
-  // Along and across the vehicle as it was.
-  const Eigen::Matrix2d axes = before.linear().topLeftCorner<2, 2>();
-  const Eigen::Matrix2d spread = axes * Eigen::Vector2d(4e-4, 1e-6).asDiagonal() * axes.transpose();
-  EXPECT_NEAR(placed.covariance()[0], spread(0, 0), 5e-5);
-  EXPECT_NEAR(placed.covariance()[1], spread(0, 1), 5e-5);
-  EXPECT_NEAR(placed.covariance()[7], spread(1, 1), 5e-5);
-}
-
-TEST_F(LocalizerComponent, SaysThatTheLandmarksMayBeOfAnotherPlace) {
+TEST_F(LocalizerOnTopics, SaysThatTheLandmarksMayBeOfAnotherPlace) {
   load();
   publish_landmark(9, kBegin_ns - 86'400'000'000'000, at(300.0, 100.0, 1.0));
   drive(0, 2450);
@@ -323,25 +177,7 @@ TEST_F(LocalizerComponent, SaysThatTheLandmarksMayBeOfAnotherPlace) {
   EXPECT_TRUE(harness_.log_contains("is it a map of another area?"));
 }
 
-TEST_F(LocalizerComponent, SaysThatTheCamerasClocksDisagree) {
-  load();
-  drive(0, 10);
-  for (int i = 0; i < 150; ++i) {
-    publish_azimuth(stamp(5 * i) + 3'600'000'000'000, stamp(5 * i + 5) + 3'600'000'000'000, 0.0);
-  }
-  EXPECT_TRUE(harness_.log_contains("camera clocks are not synchronised"));
-}
-
-TEST_F(LocalizerComponent, SaysThatAClockBehindByAnHourDisagrees) {
-  load();
-  drive(0, 10);
-  for (int i = 0; i < 20; ++i) {
-    publish_azimuth(stamp(5 * i) - 3'600'000'000'000, stamp(5 * i + 5) - 3'600'000'000'000, 0.0);
-  }
-  EXPECT_TRUE(harness_.log_contains("camera clocks are not synchronised"));
-}
-
-TEST_F(LocalizerComponent, SaysThatThereIsNoOdometryAnyMore) {
+TEST_F(LocalizerOnTopics, SaysThatThereIsNoOdometryAnyMore) {
   load();
   drive(0, 10);
   for (int i = 1; i < 10; ++i) publish_azimuth(stamp(10 * i), stamp(10 * i + 10), 0.0);
@@ -350,7 +186,7 @@ TEST_F(LocalizerComponent, SaysThatThereIsNoOdometryAnyMore) {
   EXPECT_THAT(states_.back()->reason(), HasSubstr("no /odometry/binocular for"));
 }
 
-TEST_F(LocalizerComponent, SaysThatThereAreNoPanoramasAnyMore) {
+TEST_F(LocalizerOnTopics, SaysThatThereAreNoPanoramasAnyMore) {
   load();
   drive(0, 10);
   publish_azimuth(stamp(0), stamp(5), 0.0);
@@ -359,7 +195,7 @@ TEST_F(LocalizerComponent, SaysThatThereAreNoPanoramasAnyMore) {
   EXPECT_EQ(states_.back()->state(), states::TRACKING) << "it drifts, but is localised";
 }
 
-TEST_F(LocalizerComponent, TellsOfUnreliableOdometryAndOfTheCompass) {
+TEST_F(LocalizerOnTopics, TellsOfUnreliableOdometryAndOfTheCompass) {
   load();
   drive(0, 50);
   drive_with_quality(50, 60, false);
@@ -373,7 +209,7 @@ TEST_F(LocalizerComponent, TellsOfUnreliableOdometryAndOfTheCompass) {
 }
 
 /// Fraction of a turn seen only by the compass that the pose contains two seconds later.
-class ComponentHeedsTheCompass : public LocalizerComponent,
+class ComponentHeedsTheCompass : public LocalizerOnTopics,
                                  public ::testing::WithParamInterface<std::pair<double, double>> {};
 
 TEST_P(ComponentHeedsTheCompass, AsFarAsThePointsOfTheOdometryAgree) {
@@ -397,12 +233,12 @@ TEST_P(ComponentHeedsTheCompass, AsFarAsThePointsOfTheOdometryAgree) {
   EXPECT_NEAR(std::asin(pose->linear()(1, 0)) / kTurn_rad, share, 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(LocalizerComponent, ComponentHeedsTheCompass,
+INSTANTIATE_TEST_SUITE_P(LocalizerOnTopics, ComponentHeedsTheCompass,
                          ::testing::Values(std::pair{1.0, 0.3 * 5.0 / (0.3 * 5.0 + 1.0)},  // no outliers
                                            std::pair{0.9, 5.0 / (5.0 + 1.0)},              // some outliers
                                            std::pair{std::nan(""), 5.0 / (5.0 + 1.0)}));   // unknown
 
-TEST_F(LocalizerComponent, KeepsItsPathsShort) {
+TEST_F(LocalizerOnTopics, KeepsItsPathsShort) {
   load({{"path_step_m", "0.01"}});
   for (int i = 0; i < 9000; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), 1e-3);
   ASSERT_THAT(paths_, Not(IsEmpty()));

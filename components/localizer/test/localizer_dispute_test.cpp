@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "panvo/localizer/localizer.hpp"
+#include "panvo/vision/angle.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -15,7 +15,6 @@ namespace {
 constexpr std::int64_t kFrame_ns = 40'000'000;
 constexpr double kMetresPerSecond = 5.0;
 constexpr int kFramesAPanorama = 5;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A vehicle driving straight at 5 m/s with 25 stereo pairs and 5 panoramas per second, and faults of its cameras.
 class Straight {
@@ -145,7 +144,7 @@ TEST(LocalizerDispute, KnowsOfAnOdometryThatStandsWhileTheVehicleDrives) {
 TEST(LocalizerDispute, GoesOnWithTheOdometryWhereThePanoramicCameraWasTurned) {
   Straight vehicle;
   vehicle.drive(4.0);
-  vehicle.turn_camera(30.0 * kDegree);
+  vehicle.turn_camera(30.0 * vision::kDegree);
   vehicle.drive(0.2);
   EXPECT_EQ(vehicle.last_use, AzimuthUse::kDoubted);
   EXPECT_FALSE(vehicle.is_usable());
@@ -154,23 +153,24 @@ TEST(LocalizerDispute, GoesOnWithTheOdometryWhereThePanoramicCameraWasTurned) {
   EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
   EXPECT_LT(vehicle.error_m(), 0.1);
   const double yaw_sigma_rad = std::sqrt(vehicle.localizer.latest().covariance(5, 5));
-  EXPECT_NEAR(yaw_sigma_rad, 10.0 * kDegree, 1.0 * kDegree) << "one chance in nine that the vehicle turned";
+  EXPECT_NEAR(yaw_sigma_rad, 10.0 * vision::kDegree, 1.0 * vision::kDegree)
+      << "one chance in nine that the vehicle turned";
 }
 
 TEST(LocalizerDispute, BelievesPanoramasThatTurnAsAVehicleMay) {
   Straight vehicle;
   vehicle.drive(4.0);
-  vehicle.compass_rad = 2.0 * kDegree;
+  vehicle.compass_rad = 2.0 * vision::kDegree;
   vehicle.drive(0.2);
   EXPECT_EQ(vehicle.last_use, AzimuthUse::kContradicted);
   const auto& pose = vehicle.localizer.latest();
-  EXPECT_NEAR(yaw_of(pose.map_from_base.linear()), 2.0 * kDegree, 0.1 * kDegree);
-  EXPECT_GT(std::sqrt(pose.covariance(5, 5)), 0.6 * kDegree) << "odometry may still be right";
+  EXPECT_NEAR(yaw_of(pose.map_from_base.linear()), 2.0 * vision::kDegree, 0.1 * vision::kDegree);
+  EXPECT_GT(std::sqrt(pose.covariance(5, 5)), 0.6 * vision::kDegree) << "odometry may still be right";
 }
 
 TEST(LocalizerDispute, IsUncertainAcrossTheWayAsTheTwoMountsDisagree) {
   Straight vehicle;
-  vehicle.rig_turned_rad = 3.0 * kDegree;
+  vehicle.rig_turned_rad = 3.0 * vision::kDegree;
   for (int i = 0; i < 20; ++i) {
     vehicle.drive(1.0);
     EXPECT_LT(vehicle.error_in_sigmas(), 3.0) << "after " << i + 1 << " s";
@@ -182,12 +182,12 @@ TEST(LocalizerDispute, IsUncertainAcrossTheWayAsTheTwoMountsDisagree) {
 TEST(LocalizerDispute, LearnsHowAPanoramicCameraSitsThatWasNeverMeasured) {
   for (const double degrees : {-90.0, 35.0, 180.0}) {
     Straight vehicle;
-    vehicle.camera_turned_rad = degrees * kDegree;
+    vehicle.camera_turned_rad = degrees * vision::kDegree;
     vehicle.drive(20.0);
     EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking) << degrees;
     EXPECT_EQ(vehicle.last_use, AzimuthUse::kFused) << degrees;
     EXPECT_LT(vehicle.error_m(), 0.1) << degrees;
-    const double off_deg = vehicle.localizer.direction_offset().estimate_rad() / kDegree;
+    const double off_deg = vehicle.localizer.direction_offset().estimate_rad() / vision::kDegree;
     EXPECT_NEAR(std::abs(off_deg), std::abs(degrees), 1.0);
   }
 }
@@ -199,7 +199,7 @@ TEST(LocalizerDispute, LearnsAnewHowTheCamerasSitWhereItWasWrong) {
   vehicle.mover_m_s.reset();
   vehicle.drive(20.0);
   EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
-  EXPECT_NEAR(vehicle.localizer.direction_offset().estimate_rad(), 0.0, 1.0 * kDegree);
+  EXPECT_NEAR(vehicle.localizer.direction_offset().estimate_rad(), 0.0, 1.0 * vision::kDegree);
 }
 
 TEST(LocalizerDispute, BelievesTheMountOfAStereoCameraThatIsAlone) {

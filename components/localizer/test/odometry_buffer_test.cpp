@@ -9,7 +9,7 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr std::int64_t kPeriod_ns = 40'000'000;
+constexpr std::int64_t kEach_ns = 40'000'000;
 
 /// Straight, 0.2 m per step; each step has its own yaw variance.
 OdometryBuffer straight(const std::vector<double>& yaw_variances) {
@@ -23,7 +23,7 @@ OdometryBuffer straight(const std::vector<double>& yaw_variances) {
     step.translation().x() = 0.2;
     pose.covariance = vision::compose_covariance(pose.odom_from_base, pose.covariance, step, gained);
     pose.odom_from_base = pose.odom_from_base * step;
-    pose.stamp_ns += kPeriod_ns;
+    pose.stamp_ns += kEach_ns;
     chain.add(pose);
   }
   return chain;
@@ -31,11 +31,11 @@ OdometryBuffer straight(const std::vector<double>& yaw_variances) {
 
 TEST(OdometryBuffer, RemembersWhatItWasGivenAndWhatLiesBetween) {
   const auto chain = straight({1e-4, 1e-4, 1e-4});
-  ASSERT_TRUE(chain.at(kPeriod_ns + kPeriod_ns / 2));
-  EXPECT_NEAR(chain.at(kPeriod_ns + kPeriod_ns / 2)->pose.odom_from_base.translation().x(), 0.3, 1e-12);
-  EXPECT_NEAR(chain.at(kPeriod_ns + kPeriod_ns / 2)->way_m, 0.3, 1e-12);
+  ASSERT_TRUE(chain.at(kEach_ns + kEach_ns / 2));
+  EXPECT_NEAR(chain.at(kEach_ns + kEach_ns / 2)->pose.odom_from_base.translation().x(), 0.3, 1e-12);
+  EXPECT_NEAR(chain.at(kEach_ns + kEach_ns / 2)->way_m, 0.3, 1e-12);
   EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 3e-4, 1e-9);
-  EXPECT_FALSE(chain.at(4 * kPeriod_ns));
+  EXPECT_FALSE(chain.at(4 * kEach_ns));
   EXPECT_FALSE(chain.at(-1));
 }
 
@@ -48,55 +48,55 @@ TEST(OdometryBuffer, GoesOnForAMomentAsItWent) {
   step.translation().x() = 0.4;
   step.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.08));
   pose.odom_from_base = step;
-  pose.stamp_ns = kPeriod_ns;
+  pose.stamp_ns = kEach_ns;
   pose.covariance = 8e-4 * vision::Matrix6d::Identity();
   chain.add(pose);
-  const auto ahead = chain.at(kPeriod_ns + kPeriod_ns / 8);
+  const auto ahead = chain.at(kEach_ns + kEach_ns / 8);
   ASSERT_TRUE(ahead);
-  EXPECT_EQ(ahead->pose.stamp_ns, kPeriod_ns + kPeriod_ns / 8);
+  EXPECT_EQ(ahead->pose.stamp_ns, kEach_ns + kEach_ns / 8);
   EXPECT_NEAR(ahead->way_m, 0.45, 1e-9);
   // On its circle, along which the first 0.4 m turned from -0.04 to 0.04 rad relative to the chord.
   EXPECT_NEAR(ahead->pose.odom_from_base.translation().x(), 0.4 + 0.05 * std::cos(0.045), 1e-4);
   EXPECT_NEAR(ahead->pose.odom_from_base.translation().y(), 0.05 * std::sin(0.045), 1e-4);
   EXPECT_NEAR(ahead->pose.covariance(5, 5), 9e-4, 1e-12);
-  EXPECT_NEAR(chain.turn(0, kPeriod_ns + kPeriod_ns / 8)->change_rad, 0.09, 1e-9);
-  EXPECT_NEAR(*chain.raw_turn(0, kPeriod_ns + kPeriod_ns / 8), 0.09, 1e-9);
-  EXPECT_NEAR((*chain.twist(kPeriod_ns + kPeriod_ns / 8))[5], 2.0, 1e-9);
-  EXPECT_FALSE(chain.at(kPeriod_ns + kPeriod_ns / 8 + 1)) << "at most 5 ms";
+  EXPECT_NEAR(chain.turn(0, kEach_ns + kEach_ns / 8)->change_rad, 0.09, 1e-9);
+  EXPECT_NEAR(*chain.raw_turn(0, kEach_ns + kEach_ns / 8), 0.09, 1e-9);
+  EXPECT_NEAR((*chain.twist(kEach_ns + kEach_ns / 8))[5], 2.0, 1e-9);
+  EXPECT_FALSE(chain.at(kEach_ns + kEach_ns / 8 + 1)) << "at most 5 ms";
 }
 
 TEST(OdometryBuffer, ForgetsWhatIsTooLongAgo) {
   OdometryBuffer chain(1.0);
   OdometryPose pose;
   for (int i = 0; i < 100; ++i) {
-    pose.stamp_ns = i * kPeriod_ns;
+    pose.stamp_ns = i * kEach_ns;
     ASSERT_TRUE(chain.add(pose));
   }
-  EXPECT_FALSE(chain.at(70 * kPeriod_ns));
-  EXPECT_TRUE(chain.at(75 * kPeriod_ns));
+  EXPECT_FALSE(chain.at(70 * kEach_ns));
+  EXPECT_TRUE(chain.at(75 * kEach_ns));
 }
 
 TEST(OdometryBuffer, RefusesWhatIsLateOrNoNumber) {
   auto chain = straight({1e-4});
   OdometryPose pose;
-  pose.stamp_ns = kPeriod_ns;
+  pose.stamp_ns = kEach_ns;
   EXPECT_FALSE(chain.add(pose));
-  pose.stamp_ns = 2 * kPeriod_ns;
+  pose.stamp_ns = 2 * kEach_ns;
   pose.covariance(3, 3) = std::nan("");
   EXPECT_FALSE(chain.add(pose));
 }
 
 TEST(OdometryBuffer, PutsATurnIntoTheStepThatWasLeastSure) {
   auto chain = straight({1e-6, 1e-6, 1e-2, 1e-6, 1e-6});
-  const auto before = chain.turn(0, 5 * kPeriod_ns);
+  const auto before = chain.turn(0, 5 * kEach_ns);
   ASSERT_TRUE(before);
   EXPECT_NEAR(before->change_rad, 0.0, 1e-12);
   EXPECT_NEAR(before->variance_rad2, 1e-2 + 4e-6, 1e-8);
-  chain.apply_yaw_correction(0, 5 * kPeriod_ns, 0.1, 0.01);
-  EXPECT_NEAR(chain.turn(0, 5 * kPeriod_ns)->change_rad, 0.1, 1e-9);
-  EXPECT_NEAR(chain.turn(0, 2 * kPeriod_ns)->change_rad, 0.0, 1e-4);
-  EXPECT_NEAR(chain.turn(2 * kPeriod_ns, 3 * kPeriod_ns)->change_rad, 0.1, 1e-4);
-  EXPECT_NEAR(chain.turn(0, 5 * kPeriod_ns)->variance_rad2, 0.01 * before->variance_rad2, 1e-8);
+  chain.apply_yaw_correction(0, 5 * kEach_ns, 0.1, 0.01);
+  EXPECT_NEAR(chain.turn(0, 5 * kEach_ns)->change_rad, 0.1, 1e-9);
+  EXPECT_NEAR(chain.turn(0, 2 * kEach_ns)->change_rad, 0.0, 1e-4);
+  EXPECT_NEAR(chain.turn(2 * kEach_ns, 3 * kEach_ns)->change_rad, 0.1, 1e-4);
+  EXPECT_NEAR(chain.turn(0, 5 * kEach_ns)->variance_rad2, 0.01 * before->variance_rad2, 1e-8);
   // straight, a turn of 0.1 rad in the middle of the third step, straight
   EXPECT_NEAR(chain.latest().pose.odom_from_base.translation().y(), 0.2 * std::sin(0.05) + 0.4 * std::sin(0.1), 1e-4);
   EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 0.01 * before->variance_rad2, 1e-6);
@@ -104,32 +104,32 @@ TEST(OdometryBuffer, PutsATurnIntoTheStepThatWasLeastSure) {
 
 TEST(OdometryBuffer, TakesOnlyThePartOfAStepThatLiesInTheStretch) {
   auto chain = straight({1e-4, 1e-4});
-  EXPECT_NEAR(chain.turn(kPeriod_ns / 2, kPeriod_ns)->variance_rad2, 0.5e-4, 1e-10);
-  chain.apply_yaw_correction(kPeriod_ns / 2, kPeriod_ns + kPeriod_ns / 2, 0.02, 1.0);
-  EXPECT_NEAR(chain.turn(0, 2 * kPeriod_ns)->change_rad, 0.02, 1e-9);
-  EXPECT_NEAR(chain.turn(0, kPeriod_ns)->change_rad, 0.01, 1e-9);
+  EXPECT_NEAR(chain.turn(kEach_ns / 2, kEach_ns)->variance_rad2, 0.5e-4, 1e-10);
+  chain.apply_yaw_correction(kEach_ns / 2, kEach_ns + kEach_ns / 2, 0.02, 1.0);
+  EXPECT_NEAR(chain.turn(0, 2 * kEach_ns)->change_rad, 0.02, 1e-9);
+  EXPECT_NEAR(chain.turn(0, kEach_ns)->change_rad, 0.01, 1e-9);
 }
 
 TEST(OdometryBuffer, DistrustsAStretch) {
   auto chain = straight({1e-4, 1e-4, 1e-4});
   const double before = chain.latest().pose.covariance(2, 2);
-  chain.inflate_covariance(kPeriod_ns, 2 * kPeriod_ns, 25.0, 4.0);
-  EXPECT_NEAR(chain.turn(kPeriod_ns, 2 * kPeriod_ns)->variance_rad2, 25e-4, 1e-8);
-  EXPECT_NEAR(chain.turn(0, kPeriod_ns)->variance_rad2, 1e-4, 1e-8);
+  chain.inflate_covariance(kEach_ns, 2 * kEach_ns, 25.0, 4.0);
+  EXPECT_NEAR(chain.turn(kEach_ns, 2 * kEach_ns)->variance_rad2, 25e-4, 1e-8);
+  EXPECT_NEAR(chain.turn(0, kEach_ns)->variance_rad2, 1e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 27e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2),
               1e-10);  // height, and pitch over the following 0.2 m
-  chain.inflate_covariance(kPeriod_ns, 2 * kPeriod_ns, 25.0, 4.0);
-  EXPECT_NEAR(chain.turn(kPeriod_ns, 2 * kPeriod_ns)->variance_rad2, 625e-4, 1e-8);
+  chain.inflate_covariance(kEach_ns, 2 * kEach_ns, 25.0, 4.0);
+  EXPECT_NEAR(chain.turn(kEach_ns, 2 * kEach_ns)->variance_rad2, 625e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2), 1e-10) << "only once";
 }
 
 TEST(OdometryBuffer, AllowsForSoMuchInAllOverAStretch) {
   auto chain = straight({1e-4, 1e-4, 1e-4});
   const auto before = chain.latest().pose.covariance;
-  chain.allow(kPeriod_ns / 2, 2 * kPeriod_ns + kPeriod_ns / 2, 0.04, 0.02);
-  EXPECT_NEAR(chain.turn(0, 3 * kPeriod_ns)->variance_rad2, 3e-4 + 0.02, 1e-9);
-  EXPECT_NEAR(chain.turn(0, kPeriod_ns)->variance_rad2, 1e-4 + 0.005, 1e-9) << "first step: a quarter of it";
+  chain.allow(kEach_ns / 2, 2 * kEach_ns + kEach_ns / 2, 0.04, 0.02);
+  EXPECT_NEAR(chain.turn(0, 3 * kEach_ns)->variance_rad2, 3e-4 + 0.02, 1e-9);
+  EXPECT_NEAR(chain.turn(0, kEach_ns)->variance_rad2, 1e-4 + 0.005, 1e-9) << "first step: a quarter of it";
   const auto after = chain.latest().pose.covariance;
   EXPECT_NEAR(after(0, 0) - before(0, 0), 0.04, 1e-9);
   EXPECT_GT(after(1, 1) - before(1, 1), 0.04) << "plus the effect of the yaw";
@@ -138,14 +138,14 @@ TEST(OdometryBuffer, AllowsForSoMuchInAllOverAStretch) {
 
 TEST(OdometryBuffer, TakesBackWhatWasPutRightSinceTheMark) {
   auto chain = straight({1e-4, 1e-4, 1e-4, 1e-4});
-  chain.apply_yaw_correction(0, 2 * kPeriod_ns, 0.02, 0.5);
-  chain.mark(kPeriod_ns);
+  chain.apply_yaw_correction(0, 2 * kEach_ns, 0.02, 0.5);
+  chain.mark(kEach_ns);
   const OdometrySample before = chain.latest();
-  chain.inflate_covariance(kPeriod_ns, 4 * kPeriod_ns, 9.0, 2.0);
-  chain.apply_yaw_correction(kPeriod_ns, 4 * kPeriod_ns, 0.1, 0.1);
-  EXPECT_NEAR(chain.turn(0, 4 * kPeriod_ns)->change_rad, 0.12, 1e-9);
+  chain.inflate_covariance(kEach_ns, 4 * kEach_ns, 9.0, 2.0);
+  chain.apply_yaw_correction(kEach_ns, 4 * kEach_ns, 0.1, 0.1);
+  EXPECT_NEAR(chain.turn(0, 4 * kEach_ns)->change_rad, 0.12, 1e-9);
   chain.revert();
-  EXPECT_NEAR(chain.turn(0, 4 * kPeriod_ns)->change_rad, 0.02, 1e-9) << "changes before the mark remain";
+  EXPECT_NEAR(chain.turn(0, 4 * kEach_ns)->change_rad, 0.02, 1e-9) << "changes before the mark remain";
   EXPECT_TRUE(chain.latest().pose.odom_from_base.isApprox(before.pose.odom_from_base, 1e-12));
   EXPECT_TRUE(chain.latest().pose.covariance.isApprox(before.pose.covariance, 1e-12));
 }
@@ -154,17 +154,17 @@ TEST(OdometryBuffer, KnowsTheTwist) {
   OdometryBuffer chain(60.0);
   OdometryPose pose;
   chain.add(pose);
-  pose.stamp_ns = kPeriod_ns;
+  pose.stamp_ns = kEach_ns;
   pose.odom_from_base.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.02));
   pose.odom_from_base.translation().x() = 0.2;
   chain.add(pose);
   vision::Vector6d expected;
   expected << 5.0, 0.0, 0.0, 0.0, 0.0, 0.5;
-  ASSERT_TRUE(chain.twist(kPeriod_ns));
-  EXPECT_TRUE(chain.twist(kPeriod_ns)->isApprox(expected, 1e-9));
-  EXPECT_TRUE(chain.twist(kPeriod_ns / 3)->isApprox(expected, 1e-9));
+  ASSERT_TRUE(chain.twist(kEach_ns));
+  EXPECT_TRUE(chain.twist(kEach_ns)->isApprox(expected, 1e-9));
+  EXPECT_TRUE(chain.twist(kEach_ns / 3)->isApprox(expected, 1e-9));
   EXPECT_FALSE(chain.twist(0));
-  EXPECT_FALSE(chain.twist(2 * kPeriod_ns));
+  EXPECT_FALSE(chain.twist(2 * kEach_ns));
 }
 
 }  // namespace

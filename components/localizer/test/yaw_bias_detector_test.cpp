@@ -6,10 +6,10 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr std::int64_t kPeriod_ns = 400'000'000;
+constexpr std::int64_t kInterval_ns = 400'000'000;
 
 YawBiasDetector::Stretch turn(int i, double disagreement_rad) {
-  return {i * kPeriod_ns, (i + 1) * kPeriod_ns, disagreement_rad, 0.1, 1e-6, 1e-6};
+  return {i * kInterval_ns, (i + 1) * kInterval_ns, disagreement_rad, 0.1, 1e-6, 1e-6};
 }
 
 TEST(YawBiasDetector, IsNoneWhereErrorsAreOfBothSigns) {
@@ -25,7 +25,7 @@ TEST(YawBiasDetector, IsSeenInErrorsThatAreSmallButAllToOneSide) {
     if (!found) continue;
     seen_at = i;
     EXPECT_EQ(found->from_ns, 0);
-    EXPECT_EQ(found->to_ns, (i + 1) * kPeriod_ns);
+    EXPECT_EQ(found->to_ns, (i + 1) * kInterval_ns);
     EXPECT_NEAR(found->disagreement_rad, 0.0017 * (i + 1), 1e-12);
     EXPECT_NEAR(found->compass_rad, 0.1 * (i + 1), 1e-12);
   }

@@ -7,7 +7,6 @@
 #include "container_implementation.hpp"
 #include "node_services/parameter_events.hpp"
 #include "panvo/interfaces/node_topics.hpp"
-#include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -47,10 +46,8 @@ std::vector<std::unique_ptr<BridgeService>> Container::Implementation::serve(
   if (options_.services == ServiceAccess::kOff) return services;
   for (auto& service : offered) {
     auto guard = node_services::guard_of(service, options_.services);
-    try {
-      host_.services.add(service.description, owner, host_.requests.serve(owner, guarded(service.handler, guard)));
-    } catch (const ConfigError&) {  // of another node of that name, which then answers in this process
-    }
+    // If it is of another node of that name, that one answers in this process.
+    host_.services.add(service.description, owner, host_.requests.serve(owner, guarded(service.handler, guard)));
     if (bus_.bridge())
       services.push_back(bus_.bridge()->serve(service.description, std::move(service.handler), std::move(guard)));
   }

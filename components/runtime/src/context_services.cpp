@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Services of a component: offered and called.
 #include "context_state.hpp"
-#include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -31,10 +30,11 @@ void Context::open_service(ServiceDescription service, ServiceHandler handler) {
     worker.push(port, {.item = std::make_shared<WaitingRequest>(std::move(bytes), std::move(reply), place),
                        .stamp_ns = current_stamp_ns()});
   };
-  try {
-    state_->host.services.add(service, state_.get(), serve);
-  } catch (const ConfigError& error) {  // as in ROS 2, two nodes may offer it
-    log().warn("{}; until then, the other one answers calls of this process", error.what());
+  if (!state_->host.services.add(service, state_.get(), serve)) {  // as in ROS 2, two nodes may offer it
+    log().warn(
+        "service {} already exists in this container, and its component answers calls of this process; remap one "
+        "of them",
+        service.name);
   }
   state_->services.emplace_back(std::move(service), std::move(serve));
 }

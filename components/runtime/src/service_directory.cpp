@@ -6,8 +6,6 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "panvo/runtime/errors.hpp"
-
 namespace panvo::runtime {
 namespace {
 
@@ -41,11 +39,9 @@ class Waiting {
 
 }  // namespace
 
-void ServiceDirectory::add(const ServiceDescription& service, const void* owner, Serve serve) {
+bool ServiceDirectory::add(const ServiceDescription& service, const void* owner, Serve serve) {
   const std::unique_lock lock(mutex_);
-  if (!entries_.try_emplace(service.name, Entry{service.type_name, owner, std::move(serve)}).second) {
-    throw ConfigError("service " + service.name + " already exists in this container; remap one of them");
-  }
+  return entries_.try_emplace(service.name, Entry{service.type_name, owner, std::move(serve)}).second;
 }
 
 void ServiceDirectory::remove_of(const void* owner) {

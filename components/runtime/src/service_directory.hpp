@@ -36,8 +36,8 @@ class ServiceDirectory {
   /// Queues a request for its handler. Never blocks.
   using Serve = std::function<void(interfaces::Bytes request, std::shared_ptr<Reply> reply)>;
 
-  /// Throws ConfigError if the name is taken. `owner` is the key for remove_of().
-  void add(const ServiceDescription& service, const void* owner, Serve serve);
+  /// False, without effect, if another one has that name. `owner` is the key for remove_of().
+  bool add(const ServiceDescription& service, const void* owner, Serve serve);
   /// No service of the owner is called once this has returned.
   void remove_of(const void* owner);
 

@@ -37,6 +37,7 @@ std::optional<double> ClockSearch::find(std::int64_t latest_ns, const Reference&
   const double bend = before - 2.0 * at + after;
   const double vertex = bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
   cost_ = {};
+  has_found_ = true;
   return offset_s(static_cast<double>(*found) + vertex);
 }
 
@@ -69,6 +70,17 @@ std::optional<std::size_t> ClockSearch::best() const {
     if (apart > kNear && cost_[i] < cost_[least] + kClear) return std::nullopt;
   }
   return least;
+}
+
+bool ClockDoubt::add(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double within_rad,
+                     const ClockSearch::Reference& reference) {
+  for (std::size_t i = 0; i < possible_.size(); ++i) {
+    if (!possible_[i]) continue;
+    const std::int64_t by_ns = vision::to_ns(ClockSearch::offset_s(static_cast<double>(i)));
+    const auto turn = reference(from_ns - by_ns, to_ns - by_ns);
+    possible_[i] = turn && std::abs(wrapped(change_rad - turn->change_rad)) < within_rad;
+  }
+  return possible_.any();
 }
 
 }  // namespace panvo::vision

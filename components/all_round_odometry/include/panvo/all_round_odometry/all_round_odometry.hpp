@@ -86,6 +86,8 @@ class AllRoundOdometry {
 
   bool is_unreachable(const StereoPose& stereo);
   void search_clock(const PanoramaPoints& received);
+  vision::ClockSearch::Reference turns_of_stereo() const;
+  void doubt_clock(const PanoramaPoints& panorama);
   void process();
   void process(const PanoramaPoints& received);
   void learn_rotation(const PanoramaPoints& received);
@@ -109,8 +111,9 @@ class AllRoundOdometry {
   CameraRotation camera_rotation_;
   PanoramicMotion motion_;
   vision::ClockSearch clock_search_;
+  vision::ClockDoubt clock_doubt_;
+  bool is_clock_doubtful_ = true;
   double ahead_s_ = 0.0;           // the panoramic camera's clock
-  bool is_clock_known_ = false;    // a large offset is excluded or was found
   std::deque<StereoPose> stereo_;  // recent; the last held_ ones wait for a panorama
   std::size_t held_ = 0;
   int unreachable_ = 0;                      // consecutive poses

@@ -28,4 +28,13 @@ struct PanoramaPoints {
   std::vector<PointTracks> tracks;                              ///< that of the reference first
 };
 
+/// The same in other axes of the vehicle.
+PanoramaPoints turned(PanoramaPoints panorama, const Eigen::Matrix3d& by);
+
+/// Turn to the left since the reference, rad. Precondition: there is one.
+double turn_in(const PanoramaPoints& panorama);
+
+/// Shifts all stamps back.
+void set_back(PanoramaPoints& panorama, std::int64_t by_ns);
+
 }  // namespace panvo::all_round_odometry

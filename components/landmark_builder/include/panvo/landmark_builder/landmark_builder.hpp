@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -71,6 +72,11 @@ class LandmarkBuilder {
   /// Processes panoramas in order of time; returns the landmarks completed, with ids, each built from an earlier
   /// panorama. Panoramas rejected by landmarks::find_fault must not be passed.
   std::vector<landmarks::PanoramicLandmark> step(const PosedPanorama& panorama);
+
+  /// The panoramas so far were taken at other times: replaces the poses of those that are kept for later landmarks, by
+  /// stamp, and forgets panoramas without one.
+  using PoseOf = std::function<std::optional<Eigen::Isometry3d>(std::int64_t stamp_ns)>;
+  void set_poses(const PoseOf& odom_from_base);
 
   /// Adds or moves a landmark, e.g. of an earlier journey; position in the map, m.
   void set_landmark(std::uint32_t id, const Eigen::Vector2d& position) { rule_.set_landmark(id, position); }

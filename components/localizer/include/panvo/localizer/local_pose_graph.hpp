@@ -63,7 +63,8 @@ class LocalPoseGraph {
   bool has_known() const noexcept { return !known_.empty(); }
   bool is_known(std::uint32_t id) const { return known_.contains(id); }
 
-  void add_built(std::uint32_t id, const OdometrySample& at);
+  /// A landmark built from the panorama of a stamp, taken `at` that moment of the odometry.
+  void add_built(std::uint32_t id, std::int64_t panorama_ns, const OdometrySample& at);
   /// An external pose of the vehicle.
   void set_initial_pose(const PoseInMap& pose, const OdometrySample& at);
   /// Adds a sighting; false if a pass by the same landmark within `same_pass_m` of path has a better one. Keeps the
@@ -104,6 +105,9 @@ class LocalPoseGraph {
   /// Updates the nodes after a time from the chain, whose poses have changed.
   void refresh(const OdometryBuffer& chain, std::int64_t since_ns);
 
+  /// The stamps of panoramas are ahead of the odometry's by so much: moves their nodes along the path, where the chain
+  /// still covers them.
+  void set_clock(const OdometryBuffer& chain, std::int64_t ahead_ns);
   /// Shifts all stamps of this journey back.
   void set_clock_back(std::int64_t by_ns);
 
@@ -118,6 +122,7 @@ class LocalPoseGraph {
     bool is_pass = false;            ///< passed
     bool is_of_earlier_day = false;  ///< not on this journey's path
     OdometrySample at;               ///< odometry at that moment
+    std::int64_t panorama_ns = 0;    ///< stamp of the panorama, if there is one
     LandmarkSighting sighting;       ///< of a pass
     std::optional<PoseInMap> said;   ///< external pose
     std::optional<GnssFix> fix;

@@ -81,7 +81,7 @@ enum class AzimuthUse {
   kFused,         ///< with odometry's turn, weighted by variances
   kContradicted,  ///< odometry's turn was considered wrong
   kDoubted,       ///< not used: implausible turn while odometry continued steadily
-  kUnclear,       ///< not used: a wrong turn, or turns at different times; before the clock is known
+  kUnclear,       ///< not used: a wrong turn, or one at another time because a clock is wrong
   kNotUsed,       ///< no odometry for its stamps, or not finite
 };
 
@@ -150,6 +150,8 @@ class Localizer {
   /// Current poses of the landmarks of this journey and of those seen on it, by ascending id.
   std::vector<KnownLandmark> landmarks() const;
   const ClockOffset& panorama_clock() const noexcept { return clock_; }
+  /// Whether a large offset of it is excluded or was found.
+  bool is_clock_known() const { return parameters_.clock_sigma_s == 0.0 || clock_search_.has_found(); }
   const ExtrinsicsMonitor& mounting() const noexcept { return mounting_; }
   const DirectionOffset& direction_offset() const noexcept { return check_.direction_offset(); }
 
@@ -189,6 +191,9 @@ class Localizer {
   bool agree(const PendingRelocalization& before, const PendingRelocalization& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   void search_clock(const AzimuthMeasurement& azimuth);
+  void set_clock(double ahead_s);
+  bool may_be_of_another_time(const AzimuthMeasurement& azimuth, double within_rad);
+  vision::ClockSearch::Reference turns_of_odometry() const;
   void take_reference(std::int64_t panorama_stamp_ns);
   std::optional<YawBiasDetector::Stretch> add_to_lean(YawBiasDetector::Stretch turn);
   void straighten(const YawBiasDetector::Stretch& lean);
@@ -200,8 +205,8 @@ class Localizer {
   OdometryBuffer chain_;
   ClockOffset clock_;
   vision::ClockSearch clock_search_;
+  vision::ClockDoubt clock_doubt_;
   std::int64_t clock_found_ns_ = INT64_MIN;  // odometry before that was corrected at the wrong times
-  bool is_clock_known_;                      // a large offset is excluded or was found
   YawScaleFilter turn_scale_;
   YawBiasDetector lean_;
   CrossCheck check_;

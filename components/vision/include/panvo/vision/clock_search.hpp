@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -23,6 +24,11 @@ class ClockSearch {
 
   static constexpr double kFarthest_s = 0.6;  ///< candidates reach that far to both sides
   static constexpr double kSigma_s = 0.02;    ///< standard deviation of what is found
+  static constexpr std::size_t kSide = 30, kCandidates = 2 * kSide + 1;
+
+  static double offset_s(double candidate) {
+    return (candidate - static_cast<double>(kSide)) * kFarthest_s / static_cast<double>(kSide);
+  }
 
   /// A turn by the other sensor, with stamps of its clock.
   void add(std::int64_t from_ns, std::int64_t to_ns, const Turn& turn);
@@ -31,20 +37,34 @@ class ClockSearch {
   /// other clock is ahead, s, once the turns exclude all other candidates; then starts again.
   std::optional<double> find(std::int64_t latest_ns, const Reference& reference);
 
+  /// Whether an offset was found so far, large or not.
+  bool has_found() const noexcept { return has_found_; }
+
  private:
   struct Pending {
     std::int64_t from_ns, to_ns;
     Turn turn;
   };
-  static constexpr std::size_t kSide = 30, kCandidates = 2 * kSide + 1;
-  static constexpr double kStep_s = kFarthest_s / kSide;
-
-  static double offset_s(double candidate) { return (candidate - static_cast<double>(kSide)) * kStep_s; }
   void compare(const Pending& seen, const Reference& reference);
   std::optional<std::size_t> best() const;
 
   std::deque<Pending> pending_;
   std::array<double, kCandidates> cost_{};  // squared deviations, in variances
+  bool has_found_ = false;
+};
+
+/// Whether turns that contradict the reference sensor's are those of another time, because a clock was set.
+class ClockDoubt {
+ public:
+  /// A turn that contradicts the reference sensor's. Returns whether at one candidate, of those that the reference sensor
+  /// covers, this one and all others since end() agree within `within_rad`.
+  bool add(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double within_rad,
+           const ClockSearch::Reference& reference);
+  /// The turns agree.
+  void end() { possible_.set(); }
+
+ private:
+  std::bitset<ClockSearch::kCandidates> possible_ = std::bitset<ClockSearch::kCandidates>().set();
 };
 
 }  // namespace panvo::vision

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "localizer_on_topics.hpp"
+#include "panvo/interfaces/time_topics.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+using ::testing::SizeIs;
+
+TEST_F(LocalizerOnTopics, SaysThatTheCamerasClocksDisagree) {
+  load();
+  drive(0, 10);
+  for (int i = 0; i < 150; ++i) {
+    publish_azimuth(stamp(5 * i) + 3'600'000'000'000, stamp(5 * i + 5) + 3'600'000'000'000, 0.0);
+  }
+  EXPECT_TRUE(harness_.log_contains("camera clocks are not synchronised"));
+}
+
+TEST_F(LocalizerOnTopics, SaysThatAClockBehindByAnHourDisagrees) {
+  load();
+  drive(0, 10);
+  for (int i = 0; i < 20; ++i) {
+    publish_azimuth(stamp(5 * i) - 3'600'000'000'000, stamp(5 * i + 5) - 3'600'000'000'000, 0.0);
+  }
+  EXPECT_TRUE(harness_.log_contains("camera clocks are not synchronised"));
+}
+
+TEST_F(LocalizerOnTopics, TellsTheTimeOfThePanoramicCameraOnceItIsKnown) {
+  constexpr std::int64_t kAhead_ns = 200'000'000;
+  const auto& references = harness_.collect(topics::kPanoramaTimeReference);
+  load();
+  const auto yaw = [](int frame) { return 0.3 * std::sin(0.05 * frame); };
+  Eigen::Isometry3d before = at(0.0, 0.0, 0.0);
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  const vision::Matrix6d gained = 1e-7 * vision::Matrix6d::Identity();
+  for (int i = 0; i < 400; ++i) {
+    const auto pose = at(0.2 * i, 0.0, yaw(i));
+    covariance = vision::compose_covariance(before, covariance, before.inverse() * pose, gained);
+    publish_odometry(i, pose, covariance);
+    before = pose;
+    if (i < 25 || i % 5 != 0) continue;
+    publish_azimuth(stamp(i - 25) + kAhead_ns, stamp(i - 20) + kAhead_ns, yaw(i - 20) - yaw(i - 25));
+    if (i == 50) {
+      EXPECT_THAT(references, SizeIs(0));
+      publish_landmark(1, stamp(25) + kAhead_ns, at(5.0, 0.0, yaw(25)));
+    }
+  }
+  ASSERT_THAT(references, SizeIs(1));
+  const std::int64_t ahead_ns = conversions::to_ns(references[0]->time_ref()) - conversions::stamp_ns(*references[0]);
+  EXPECT_NEAR(static_cast<double>(ahead_ns), static_cast<double>(kAhead_ns), 1e7);
+  ASSERT_THAT(poses_.back()->poses(), SizeIs(1));
+  EXPECT_NEAR(poses_.back()->poses()[0].pose().position().x(), 5.0, 0.05) << "a landmark built before";
+}
+
+}  // namespace
+}  // namespace panvo::localizer
