@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: inspect, draw and merge landmark libraries
+# summary: inspect, draw, merge and copy landmark libraries
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo landmarks info | show | merge ...
+usage: panvo landmarks info | show | merge | copy ...
        panvo landmarks junctions DATASET [options]    (see panvo landmarks junctions --help)
 
-A landmark library is one SQLite file with the places that a run can recognise.
+A landmark library holds the places that a run can recognise: one SQLite file, or a PostgreSQL database for several robots.
 EOT
   show_program_help panvo_landmarks
 }

@@ -14,7 +14,7 @@ LIBRARIES = {
     "Eigen": "eigen", "unsupported": "eigen", "opencv2": "opencv", "ceres": "ceres", "opengv": "opengv",
     "fastdds": "fastdds", "fastrtps": "fastdds", "fastcdr": "fastdds",
     "yaml-cpp": "yaml", "spdlog": "log", "fmt": "text", "CLI": "command line", "nlohmann": "json",
-    "sqlite3.h": "sqlite", "tinyxml2.h": "xml", "systemd": "systemd", "zlib.h": "zlib",
+    "sqlite3.h": "sqlite", "libpq-fe.h": "libpq", "tinyxml2.h": "xml", "systemd": "systemd", "zlib.h": "zlib",
     "civetweb.h": "civetweb", "embree3": "embree", "arv.h": "aravis", "glib.h": "aravis", "glib-object.h": "aravis",
     "pybind11": "python",
     "gtest": "test", "gmock": "test", "benchmark": "test",
@@ -45,6 +45,8 @@ VISION = floor("vision", "", "eigen, opencv", False)
 CALIBRATION_FILES = floor("calibration files", "vision", "eigen, yaml", False)
 INTERFACES = floor("interfaces", "", "messages, fastdds")
 SQLITE = floor("sqlite", "", "sqlite")
+# connections, and the thread that waits for a server in place of a component
+POSTGRES = floor("postgres", "", "libpq")
 RUNTIME = floor("runtime", "interfaces", "messages, log, command line")
 RUNTIME_DDS = floor("runtime's dds", "interfaces", "messages, fastdds, log")
 RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, command line")
@@ -55,7 +57,7 @@ COMPRESSED_IMAGES = floor("compressed images", "runtime interfaces conversions",
 ALGORITHM = floor("algorithm", "vision landmarks", "eigen, opencv, ceres, opengv", False)
 WRAPPER = floor("component wrapper", "runtime interfaces conversions vision calibration_files landmarks", "messages, eigen, opencv", False)
 # places, their store and their messages
-LANDMARKS = floor("landmarks", "vision interfaces conversions runtime sqlite", "messages, eigen, opencv, sqlite, json", False)
+LANDMARKS = floor("landmarks", "vision interfaces conversions runtime sqlite postgres", "messages, eigen, opencv, sqlite, json", False)
 # programs of a package
 TOOL = floor("tool", "vision calibration_files", "eigen, opencv, command line")
 # readers of rig files
@@ -91,6 +93,7 @@ FLOORS = [
     ("components/calibration_files", CALIBRATION_FILES),
     ("interfaces", INTERFACES),
     ("components/sqlite", SQLITE),
+    ("components/postgres", POSTGRES),
     ("components/runtime/src/dds", RUNTIME_DDS),
     ("components/runtime/src/config", RUNTIME_CONFIG),
     ("components/runtime", RUNTIME),

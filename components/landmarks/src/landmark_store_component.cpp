@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,6 +15,7 @@
 #include "panvo/landmarks/landmark_use.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "store_writer.hpp"
 
 namespace panvo::landmarks {
 namespace {
@@ -25,11 +26,16 @@ struct Parameters {
   std::string map_frame = "map";
   int appearances = 4;
   int forget_after = 10;
+  int waiting = 1000;
+  int answer_s = 10;
 
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field.path(&P::file, "file", "store file, created with the first landmark; empty: landmarks are not saved");
+    field.path(&P::file, "file",
+               "store file, created with the first landmark, or location of a PostgreSQL database, "
+               "postgresql://USER@HOST/NAME; "
+               "empty: landmarks are not saved");
     field(&P::read_only, "read_only", "", "publish the stored landmarks, store nothing");
     field(&P::map_frame, "map_frame", "", "frame of the stored poses");
     field(&P::appearances, "appearances", "1",
@@ -41,11 +47,16 @@ struct Parameters {
           "which it "
           "is removed; 0: never",
           0, 1000);
+    field(
+        &P::waiting, "waiting", "1",
+        "changes kept in memory while the database server does not answer; more are lost, and counted in /diagnostics",
+        10, 1'000'000);
+    field(&P::answer_s, "answer_s", "s", "longest wait for an answer of the database server", 1, 600);
   }
 };
 
 /// Publishes the landmarks of a store at start, and stores new and moved ones. Poses are updated by landmarks/poses,
-/// all in one transaction, or by a landmark that is received again. From odometry/enhanced and correction/outcome it counts
+/// all in one transaction, or by a landmark that is received again. A database is written by another thread. From odometry/enhanced and correction/outcome it counts
 /// which landmarks are recognised, and lets the map follow what has changed (see landmark_use.hpp).
 class LandmarkStoreComponent final : public runtime::Component {
  public:
@@ -63,12 +74,25 @@ class LandmarkStoreComponent final : public runtime::Component {
       context.input(topics::kCorrectionOutcome, [this](const auto& message) { on_outcome(*message); });
       context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_odometry(*message); });
     }
-    context.about_to_read(parameters_.file);
+    patience_.answer_s = parameters_.answer_s;
+    if (!location_.is_server()) context.about_to_read(parameters_.file);
     try {
-      if (parameters_.read_only || std::filesystem::exists(parameters_.file)) open();
+      std::unique_ptr<LandmarkStore> store;
+      if (parameters_.read_only || LandmarkStore::exists(location_, patience_)) store = open();
+      if (parameters_.read_only) return;
+      writer_ = location_.is_server()
+                    ? write_to_server(location_, settings_, patience_, static_cast<std::size_t>(parameters_.waiting))
+                    : write_to_file(location_, std::move(store));
     } catch (const StoreError& error) {
       throw runtime::ConfigError(error.what());
     }
+    if (location_.is_server()) context.on_diagnostics([this] { return writer_->diagnostics(); });
+  }
+
+  ~LandmarkStoreComponent() override {
+    if (!writer_) return;
+    writer_->finish();
+    tell_notices();
   }
 
  private:
@@ -79,23 +103,32 @@ class LandmarkStoreComponent final : public runtime::Component {
 
   static constexpr double kMaxSigma_m = 2.0;  ///< of a pose that tells which landmark is passed
 
-  void open() {
+  /// Publishes what is stored; returns the store, to write to it.
+  std::unique_ptr<LandmarkStore> open() {
     // The store keeps the settings of the landmarks received; their users check whether they can use them.
-    store_ = std::make_unique<LandmarkStore>(parameters_.file);
+    auto store = std::make_unique<LandmarkStore>(location_, patience_);
+    settings_ = store->settings();
     if (!parameters_.read_only) {
-      const auto settings = store_->settings();
-      store_ = std::make_unique<LandmarkStore>(parameters_.file, settings);
-      uses_ = store_->uses();
-      forget();
-      session_ = store_->next_session();
+      store = std::make_unique<LandmarkStore>(location_, *settings_, patience_);
+      uses_ = store->uses();
+      forget(*store);
+      session_ = store->next_session();
     }
-    const auto tell = [this](const std::string& problem) {
-      context_.log().warn("{}: {}: skipped. Remedy: run panvo landmarks info --check; restore a copy of the file",
-                          parameters_.file, problem);
+    store->read_one_state([&] { publish(*store); });
+    context_.log().info("{}: {} landmarks loaded", store->name(), known_.size());
+    return store;
+  }
+
+  void publish(const LandmarkStore& store) {
+    const auto tell = [&](const std::string& problem) {
+      context_.log().warn("{}: {}: skipped. Remedy: run panvo landmarks info --check; restore a copy{}", store.name(),
+                          problem, location_.is_server() ? "" : " of the file");
     };
-    for (auto& landmark : store_->landmarks(tell)) {
+    for (auto& landmark : store.landmarks(tell)) {
       try {
-        landmark.keypoints = store_->keypoints(landmark.id);  // the thumbnail, for display only, is not published
+        landmark.keypoints = store.keypoints(landmark.id);  // the thumbnail, for display only, is not published
+      } catch (const StoreUnavailable&) {
+        throw;
       } catch (const StoreError& error) {
         tell(error.what());
         continue;
@@ -103,25 +136,24 @@ class LandmarkStoreComponent final : public runtime::Component {
       remember({landmark.id, landmark.map_from_base, landmark.covariance});
       earlier_[landmark.id] = uses_[landmark.id];
       // The topic is latched, so subscribers may join later.
-      output_.publish(to_message(landmark, store_->settings(), parameters_.map_frame));
+      output_.publish(to_message(landmark, store.settings(), parameters_.map_frame));
     }
-    context_.log().info("{}: {} landmarks loaded", parameters_.file, known_.size());
   }
 
   /// Places of a stereo camera are recognised at like headings only, so that a pass does not tell that one has changed.
-  bool is_followed() const { return !store_->settings().contains("camera"); }
+  bool is_followed() const { return !settings_ || !settings_->contains("camera"); }
 
-  void forget() {
+  void forget(LandmarkStore& store) {
     std::vector<std::uint32_t> outdated;
     for (const auto& [id, use] : uses_) {
       if (rules_.forgets(use)) outdated.push_back(id);
     }
     if (outdated.empty()) return;
-    store_->remove(outdated);
+    store.remove(outdated);
     for (const auto id : outdated) uses_.erase(id);
     context_.log().info(
         "{}: {} landmarks removed: on {} drives past them most others of their sessions were recognised, but not they",
-        parameters_.file, outdated.size(), parameters_.forget_after);
+        store.name(), outdated.size(), parameters_.forget_after);
   }
 
   void on_outcome(const panvo_msgs::msg::CorrectionOutcome& message) {
@@ -131,21 +163,28 @@ class LandmarkStoreComponent final : public runtime::Component {
   }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
-    if (has_failed_ || (store_ && !is_followed()) || message.header().frame_id() != parameters_.map_frame) return;
+    tell_notices();
+    if (has_failed_ || !is_followed() || message.header().frame_id() != parameters_.map_frame) return;
     const auto& covariance = message.pose().covariance();
     if (!(std::sqrt(covariance[0] + covariance[7]) < kMaxSigma_m)) return;
     const auto& position = message.pose().pose().position();
-    std::map<std::uint32_t, LandmarkUse> changed;
-    for (const auto& pass : passes_.move_to({position.x(), position.y()})) {
-      auto& use = uses_[pass.id];
-      add(pass, use);
-      changed[pass.id] = use;
-    }
-    if (changed.empty()) return;
+    auto passes = passes_.move_to({position.x(), position.y()});
+    if (passes.empty()) return;
+    for (const auto& pass : passes) add(pass, uses_[pass.id]);
     try {
-      store_->set_uses(changed);
+      writer_->write(PassedLandmarks{std::move(passes)});
     } catch (const StoreError& error) {
       fail(error);
+    }
+  }
+
+  void tell_notices() {
+    for (const auto& notice : writer_->notices()) {
+      if (notice.is_error) {
+        context_.log().error("{}", notice.text);
+      } else {
+        context_.log().info("{}", notice.text);
+      }
     }
   }
 
@@ -155,7 +194,9 @@ class LandmarkStoreComponent final : public runtime::Component {
   }
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
-    if (parameters_.read_only || has_failed_) return;
+    if (parameters_.read_only) return;
+    tell_notices();
+    if (has_failed_) return;
     const auto settings = settings_from_text(message.settings());
     const auto landmark = to_landmark(message, settings);
     if (!landmark) {
@@ -164,8 +205,8 @@ class LandmarkStoreComponent final : public runtime::Component {
       return;
     }
     try {
-      if (!store_) store_ = std::make_unique<LandmarkStore>(parameters_.file, settings);
-      store_->require(settings);
+      writer_->require(settings);
+      settings_ = settings;
       keep(*landmark);
     } catch (const StoreError& error) {
       fail(error);
@@ -202,11 +243,13 @@ class LandmarkStoreComponent final : public runtime::Component {
       landmark.covariance = early->second.covariance;
     }
     if (!make_room_for(landmark)) return;
-    store_->add(landmark);
+    NewLandmark added{landmark, *settings_, std::nullopt};
     if (is_followed()) {
-      uses_[landmark.id].session = session_;
-      store_->set_uses({{landmark.id, uses_[landmark.id]}});
+      added.use = uses_[landmark.id];
+      added.use->session = session_;
     }
+    writer_->write(added);
+    if (added.use) uses_[landmark.id] = *added.use;
     remember({landmark.id, landmark.map_from_base, landmark.covariance});
   }
 
@@ -226,7 +269,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     if (!admission.is_kept) return false;
     if (admission.instead_of) {
       const auto outdated = ids[*admission.instead_of];
-      store_->remove(std::span(&outdated, 1));
+      writer_->write(RemovedLandmark{outdated});
       earlier_.erase(outdated);
       uses_.erase(outdated);
       known_.erase(outdated);
@@ -247,7 +290,7 @@ class LandmarkStoreComponent final : public runtime::Component {
       }
     }
     if (moved.empty()) return;
-    store_->set_poses(moved);
+    writer_->write(MovedLandmarks{moved});
     for (const auto& pose : moved) remember(pose);
   }
 
@@ -265,7 +308,10 @@ class LandmarkStoreComponent final : public runtime::Component {
   runtime::Context& context_;
   const Parameters parameters_;
   runtime::Output<panvo_msgs::msg::PanoramicLandmark> output_;
-  std::unique_ptr<LandmarkStore> store_;
+  const StoreLocation location_{parameters_.file};
+  StorePatience patience_;
+  std::unique_ptr<StoreWriter> writer_;          // none: nothing is stored
+  std::optional<DescriptionSettings> settings_;  // of the store, once there is one
   std::map<std::uint32_t, Known> known_;
   std::map<std::uint32_t, LandmarkPose> early_;  // poses of landmarks not received yet
   UseRules rules_;

@@ -11,6 +11,9 @@
 #include "made_up_landmark.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/landmarks/panorama_describer.hpp"
+#include "panvo/postgres/connection.hpp"
+#include "panvo/sqlite/database.hpp"
+#include "panvo/test/postgres_server.hpp"
 #include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::landmarks {
@@ -156,6 +159,95 @@ TEST_F(Command, MergeBeginsAnewWhereOneWasKilled) {
   { LandmarkStore left(out_ + ".unfinished", settings_); }
   EXPECT_EQ(run("merge " + store_ + " " + other_ + " --out " + out_).status, 0);
   EXPECT_EQ(LandmarkStore(out_).size(), 7u);
+}
+
+TEST_F(Command, CopyKeepsIdsAndRefusesWhatIsThereAlready) {
+  const auto finished = run("copy " + other_ + " " + out_);
+  EXPECT_EQ(finished.status, 0) << finished.output;
+  EXPECT_EQ(finished.output, other_ + ": 3 landmarks copied to " + out_ + " and compared\n");
+  EXPECT_EQ(difference(LandmarkStore(out_).landmarks().at(2), LandmarkStore(other_).landmarks().at(2)), "");
+  EXPECT_EQ(run("copy " + store_ + " " + out_).status, 2);
+  EXPECT_EQ(LandmarkStore(out_).size(), 3u);
+  EXPECT_EQ(run("copy --overwrite " + store_ + " " + out_).status, 0);
+  EXPECT_EQ(LandmarkStore(out_).size(), 4u);
+  EXPECT_FALSE(std::filesystem::exists(out_ + ".unfinished"));
+}
+
+TEST_F(Command, CopyOfADamagedStoreLeavesNothingBehindUnlessToldToLeaveThatOut) {
+  sqlite::Database(store_, sqlite::Database::Mode::kReadWrite).execute("UPDATE landmark SET x = 1e200 WHERE id = 2");
+  auto finished = run("copy " + store_ + " " + out_);
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_THAT(finished.output, HasSubstr("store: is damaged: landmark 2: pose.pose.position is beyond"));
+  EXPECT_FALSE(std::filesystem::exists(out_));
+  finished = run("copy --skip-damaged " + store_ + " " + out_);
+  EXPECT_EQ(finished.status, 1);
+  EXPECT_THAT(finished.output, HasSubstr("landmark 2: pose.pose.position is beyond +-1e+08; left out"));
+  EXPECT_EQ(LandmarkStore(out_).size(), 3u);
+}
+
+TEST_F(Command, TellsThatAServerIsAwayWithoutThePassword) {
+  const std::string away = "'postgresql://robot:opensesame@/map?host=" + folder_.path().string() + "'";
+  for (const auto& arguments : {"info " + away, "copy " + away + " " + out_, "copy " + store_ + " " + away,
+                                "merge " + store_ + " " + away + " --out " + out_}) {
+    const auto finished = run(arguments);
+    EXPECT_EQ(finished.status, 2) << arguments;
+    EXPECT_THAT(finished.output, HasSubstr("panvo landmarks: postgresql://robot@/map?host="));
+    EXPECT_THAT(finished.output, testing::AnyOf(HasSubstr("cannot be reached"), HasSubstr("install libpq-dev")));
+    EXPECT_THAT(finished.output, Not(HasSubstr("sesame")));
+  }
+  EXPECT_THAT(run("merge " + store_ + " " + other_ + " --out " + away).output,
+              HasSubstr("stores are merged into a file; then use panvo landmarks copy"));
+}
+
+/// The command line with a server.
+class ServerCommand : public Command {
+ protected:
+  void SetUp() override {
+    if (!postgres::is_available()) GTEST_SKIP() << "built without libpq; install libpq-dev";
+    PANVO_SKIP_WITHOUT_POSTGRES();
+    Command::SetUp();
+    server_ = &panvo::test::PostgresServer::shared();
+    server_->sql("postgres", "CREATE DATABASE " + database_);
+  }
+  std::string quoted() const { return "'" + server_->location(database_) + "'"; }
+
+  panvo::test::PostgresServer* server_ = nullptr;
+  const std::string database_ = "map" + std::to_string(++databases_);
+
+ private:
+  static inline int databases_ = 0;
+};
+
+TEST_F(ServerCommand, CopiesAFileToAServerAndBack) {
+  auto finished = run("copy " + store_ + " " + quoted());
+  EXPECT_EQ(finished.status, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("store: 4 landmarks copied to postgresql:///" + database_));
+  finished = run("copy " + quoted() + " " + out_);
+  EXPECT_EQ(finished.status, 0) << finished.output;
+  const LandmarkStore original(store_), copy(out_);
+  EXPECT_EQ(copy.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(difference(copy.landmarks().at(i), original.landmarks().at(i)), "");
+    const auto id = static_cast<std::uint32_t>(i + 1);
+    EXPECT_EQ(copy.keypoints(id), original.keypoints(id));
+    EXPECT_EQ(copy.thumbnail(id), original.thumbnail(id));
+  }
+  EXPECT_EQ(run("copy " + other_ + " " + quoted()).status, 2) << "already contains landmarks";
+  EXPECT_EQ(run("copy --overwrite " + other_ + " " + quoted()).status, 0);
+  EXPECT_EQ(LandmarkStore(server_->location(database_)).size(), 3u);
+}
+
+TEST_F(ServerCommand, InspectsDrawsAndMergesAServersLandmarks) {
+  ASSERT_EQ(run("copy " + store_ + " " + quoted()).status, 0);
+  const auto info = run("info --check " + quoted());
+  EXPECT_EQ(info.status, 0) << info.output;
+  EXPECT_THAT(info.output, HasSubstr("Landmarks:     4, "));
+  EXPECT_THAT(info.output, HasSubstr("Close pairs:   landmarks 1 and 4 are 2.00 m apart\n"));
+  EXPECT_EQ(run("show " + quoted() + " --out " + (folder_ / "pictures").string() + " --id 2").status, 0);
+  EXPECT_EQ(run("merge " + other_ + " " + quoted() + " --out " + out_).status, 0);
+  EXPECT_EQ(LandmarkStore(out_).size(), 7u);
+  server_->sql(database_, "UPDATE panvo.landmark SET x = 1e200 WHERE id = 2");
+  EXPECT_EQ(run("info --check " + quoted()).status, 1);
 }
 
 TEST_F(Command, ShowDrawsTheMapAndTheLandmarksAskedFor) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Process for interrupted_store_test that is killed while it adds landmarks. Prints the id of each added landmark;
-/// with a file size limit, prints the error and exits. With "lock" it locks a store until it is killed.
+/// with a file size limit, prints the error and exits. With "lock" it locks a store until it is killed. With "share" it adds
+/// some landmarks beside those of other processes.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -23,15 +24,26 @@ int lock(const char* file) {
   return 0;
 }
 
+int share(const char* location, std::uint32_t count) {
+  using namespace panvo::landmarks;
+  LandmarkStore store(location, test::made_up_settings());
+  for (std::uint32_t id = 1; id <= count; ++id) store.add(test::made_up_landmark(id), IfTaken::kNextId);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace panvo::landmarks;
   if (argc < 3) {
-    std::fprintf(stderr, "usage: storing_child STORE KEYPOINTS|lock [FILE_SIZE_LIMIT]\n");
+    std::fprintf(
+        stderr,
+        "usage: storing_child STORE KEYPOINTS|lock [FILE_SIZE_LIMIT]\n       storing_child STORE share COUNT\n");
     return 2;
   }
   if (std::string(argv[2]) == "lock") return lock(argv[1]);
+  if (std::string(argv[2]) == "share" && argc > 3)
+    return share(argv[1], static_cast<std::uint32_t>(std::stoul(argv[3])));
   if (argc > 3) {
     const rlim_t limit = std::stoul(argv[3]);
     const rlimit limits{limit, limit};

@@ -9,6 +9,7 @@
 
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/landmarks/panorama_describer.hpp"
+#include "store_copy.hpp"
 #include "store_info.hpp"
 #include "store_merge.hpp"
 #include "store_pictures.hpp"
@@ -38,7 +39,7 @@ int show(const std::string& path, const fs::path& out, const std::vector<std::ui
   const LandmarkStore store(path);
   const auto settings = from_settings<DescriptionParameters>(store.settings());
   if (!settings) {
-    throw StoreError(path +
+    throw StoreError(store.name() +
                      ": its settings do not match this version of panvo (see `panvo landmarks info`), so its "
                      "features cannot be drawn; use the version that wrote it");
   }
@@ -46,7 +47,7 @@ int show(const std::string& path, const fs::path& out, const std::vector<std::ui
   auto landmarks = store.landmarks();
   for (const auto id : ids) {
     if (std::none_of(landmarks.begin(), landmarks.end(), [&](const auto& landmark) { return landmark.id == id; })) {
-      throw StoreError(path + ": has no landmark " + std::to_string(id));
+      throw StoreError(store.name() + ": has no landmark " + std::to_string(id));
     }
   }
   fs::create_directories(out);
@@ -65,7 +66,7 @@ int show(const std::string& path, const fs::path& out, const std::vector<std::ui
   return kWell;
 }
 
-int merge(const std::vector<fs::path>& stores, const std::string& out, bool replace) {
+int merge(const std::vector<std::string>& stores, const std::string& out, bool replace) {
   for (const auto& part : merge_stores(stores, out, replace)) {
     std::printf("%s: %zu landmarks", part.store.c_str(), part.landmarks);
     if (part.landmarks > 0) {
@@ -82,16 +83,32 @@ int merge(const std::vector<fs::path>& stores, const std::string& out, bool repl
   return kWell;
 }
 
+int copy(const StoreLocation& from, const StoreLocation& to, bool replace, bool skip_damaged) {
+  std::size_t left_out = 0;
+  const std::function<void(const std::string&)> tell = [&](const std::string& problem) {
+    std::fprintf(stderr, "panvo landmarks: %s: %s; left out\n", from.shown().c_str(), problem.c_str());
+    ++left_out;
+  };
+  const auto count = copy_store(from, to, replace, skip_damaged ? tell : std::function<void(const std::string&)>());
+  std::printf("%s: %zu landmarks copied to %s and compared\n", from.shown().c_str(), count, to.shown().c_str());
+  return left_out > 0 ? kNotSo : kWell;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Inspects, draws and merges landmark stores.", "panvo landmarks");
+  CLI::App app(
+      "Inspects, draws, merges and copies landmark stores: files, or PostgreSQL databases, named "
+      "postgresql://USER@HOST/DATABASE.",
+      "panvo landmarks");
   app.require_subcommand(1);
-  app.footer("Exit status: 0 success, 1 store damaged (info --check), 2 error.");
-  std::string store, out;
-  std::vector<fs::path> stores;
+  app.footer(
+      "The password of a database comes from PGPASSFILE, ~/.pgpass or PGPASSWORD, as for psql.\n"
+      "Exit status: 0 success, 1 store damaged (info --check, copy --skip-damaged), 2 error.");
+  std::string store, out, from, to;
+  std::vector<std::string> stores;
   std::vector<std::uint32_t> ids;
-  bool as_json = false, check = false, overwrite = false;
+  bool as_json = false, check = false, overwrite = false, skip_damaged = false;
   int count = 4;
 
   auto* info_command = app.add_subcommand(
@@ -110,10 +127,19 @@ int main(int argc, char** argv) {
       ->capture_default_str();
 
   auto* merge_command = app.add_subcommand(
-      "merge", "merge stores of one map and equal settings into a new one, with new ids in order of the stores");
+      "merge", "merge stores of one map and equal settings into a new file, with new ids in order of the stores");
   merge_command->add_option("STORES", stores, "two or more landmark stores")->required()->expected(2, 1000);
   merge_command->add_option("--out", out, "the new store")->required();
   merge_command->add_flag("--overwrite", overwrite, "replace an existing store");
+
+  auto* copy_command = app.add_subcommand("copy",
+                                          "copy a store, between files and databases: landmarks with their ids, and "
+                                          "how they served; reads the copy back and "
+                                          "compares it");
+  copy_command->add_option("FROM", from, "landmark store")->required();
+  copy_command->add_option("TO", to, "new file, or database of which the tables are made")->required();
+  copy_command->add_flag("--overwrite", overwrite, "replace the landmarks of TO");
+  copy_command->add_flag("--skip-damaged", skip_damaged, "leave out damaged landmarks, and name them");
 
   try {
     app.parse(argc, argv);
@@ -123,6 +149,7 @@ int main(int argc, char** argv) {
   try {
     if (*info_command) return info(store, as_json, check);
     if (*show_command) return show(store, out, ids, count);
+    if (*copy_command) return copy(from, to, overwrite, skip_damaged);
     return merge(stores, out, overwrite);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "panvo landmarks: %s\n", error.what());

@@ -38,7 +38,7 @@ std::string seconds(std::int64_t stamp_ns) {
 
 StoreInfo inspect(const LandmarkStore& store, double close_m, bool look_for_damage) {
   StoreInfo info;
-  info.file = store.file().string();
+  info.file = store.name();
   if (look_for_damage) info.damage = store.find_damage();
   if (info.damage) return info;
   LandmarkLibrary library;

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -18,12 +17,11 @@
 #include "panvo/landmarks/landmark_use.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
 #include "panvo/landmarks/store_error.hpp"
-
-namespace panvo::sqlite {
-class Database;
-}
+#include "panvo/landmarks/store_location.hpp"
 
 namespace panvo::landmarks {
+
+class StoreBackend;
 
 /// Current pose of a landmark.
 struct LandmarkPose {
@@ -37,45 +35,65 @@ struct StoredBytes {
   std::uint64_t pose = 0;  ///< includes stamp, covariance and all other fields of fixed size
   std::uint64_t histogram = 0, large = 0, small = 0;
   std::uint64_t keypoints = 0, thumbnail = 0;
-  std::uint64_t file = 0;  ///< the whole file, including the database structure
+  std::uint64_t file = 0;  ///< the whole file, or all tables, including the database structure
 };
 
-/// Landmarks in a SQLite file. Additions and moves are on disk when the call returns. One process may write while
-/// others read. Not thread-safe; every function may throw StoreError.
+/// What to do with a landmark whose id is taken.
+enum class IfTaken {
+  kRefuse,  ///< throw StoreError: another process writes to a store that is not shared
+  kNextId,  ///< give it the next free id
+};
+
+/// Landmarks in an SQLite file, or in a PostgreSQL database. Changes are on disk when the call returns, whole or not at
+/// all. One process may write to a file while others read; any number may write to a database, of which no two get the
+/// same id. Not thread-safe; every function may throw StoreError.
 class LandmarkStore final : public KeypointSource {
  public:
-  static constexpr int kLayout = 1;                  ///< version of the tables, stored as `PRAGMA user_version`
+  static constexpr int kLayout = 1;                  ///< version of the tables, in a file `PRAGMA user_version`
   static constexpr int kApplicationId = 0x504e564c;  ///< "PNVL", as `PRAGMA application_id`
-  static constexpr int kBusy_ms = 2000;              ///< timeout for locks of other processes
+  static constexpr int kBusy_ms = 2000;              ///< timeout for locks of other processes on a file
 
   /// Opens a store read-only, whatever its settings.
-  explicit LandmarkStore(const std::filesystem::path& file);
-  /// Opens a store to add to it; creates the file if it does not exist. Throws if the store was created with other
-  /// settings.
-  LandmarkStore(const std::filesystem::path& file, const DescriptionSettings& settings);
+  explicit LandmarkStore(const StoreLocation& location, const StorePatience& patience = {});
+  /// Opens a store to add to it; creates the file, or the tables in the database, if they do not exist. Throws if the
+  /// store was created with other settings.
+  LandmarkStore(const StoreLocation& location, const DescriptionSettings& settings, const StorePatience& patience = {});
   ~LandmarkStore() override;
 
-  const std::filesystem::path& file() const noexcept { return file_; }
+  /// Whether there is a file, or a database contains a store.
+  static bool exists(const StoreLocation& location, const StorePatience& patience = {});
+
+  /// File name or location of the database, without a password.
+  const std::string& name() const noexcept { return name_; }
   const DescriptionSettings& settings() const noexcept { return settings_; }
   /// Throws if the store was made with other settings, naming each key that differs and both values.
   void require(const DescriptionSettings& settings) const;
 
   /// Returns the landmark's id: its own, or the next free one if that is 0. Throws std::invalid_argument for a landmark
-  /// that breaks the rules of its settings, StoreError if the id is taken.
-  std::uint32_t add(const PanoramicLandmark& landmark);
+  /// that breaks the rules of its settings, StoreError if the id is taken. Keeps `use` with it, if given.
+  std::uint32_t add(const PanoramicLandmark& landmark, IfTaken if_taken = IfTaken::kRefuse,
+                    const std::optional<LandmarkUse>& use = {});
   /// Updates landmark poses in one transaction. Unknown ids are ignored.
   void set_poses(std::span<const LandmarkPose> poses);
   /// Removes landmarks in one transaction. Unknown ids are ignored.
   void remove(std::span<const std::uint32_t> ids);
   /// Keeps how landmarks served, in one transaction. Unknown ids are ignored.
   void set_uses(const std::map<std::uint32_t, LandmarkUse>& uses);
+  /// Adds passes to how landmarks served, in one transaction, whatever other writers add. Unknown ids are ignored.
+  void count(std::span<const LandmarkPass> passes);
   /// Of the landmarks of which it is known; stores of earlier versions know of none.
   std::map<std::uint32_t, LandmarkUse> uses() const;
-  /// The number of a run that begins now, counted from 1.
+  /// The number of a run that begins now, counted from 1. A database gives each number once.
   std::uint32_t next_session() const;
   /// Appends all landmarks of another store of equal settings in one transaction, bit by bit, with new ids in their
   /// order; returns the first new id. How they served comes along, their sessions with new numbers.
   std::uint32_t append(const LandmarkStore& other);
+  /// Takes over all landmarks of another store of equal settings, with their ids and how they served, in one transaction;
+  /// reads them back and compares them before it ends. Returns their number. Landmarks that are there already are an
+  /// error, or replaced. Landmarks that break the rules are left out and passed to `report`; without it, they are an
+  /// error.
+  std::size_t become_copy_of(const LandmarkStore& other, bool replace,
+                             const std::function<void(const std::string&)>& report = {});
 
   std::size_t size() const;
   /// All landmarks without keypoints and thumbnails, in order of ids: the content of a library. Records that break the
@@ -87,22 +105,15 @@ class LandmarkStore final : public KeypointSource {
   /// Total number of keypoints of all landmarks.
   std::uint64_t keypoint_count() const;
   StoredBytes stored_bytes() const;
+  /// Runs `action`, which only reads, on one state of the store, whatever others write to a database.
+  void read_one_state(const std::function<void()>& action) const;
 
-  /// Checks the whole file including every landmark and describes the damage; nullopt if there is none.
+  /// Checks everything including every landmark and describes the damage; nullopt if there is none.
   std::optional<std::string> find_damage() const;
 
  private:
-  template <class Action>
-  decltype(auto) guarded(Action action) const;  // translates DatabaseError to StoreError
-
-  void prepare(const DescriptionSettings& settings);
-  void read_settings();
-  std::uint32_t insert(const PanoramicLandmark& landmark);
-  bool has_uses() const;
-  void append_uses(const LandmarkStore& other, const std::map<std::int64_t, std::int64_t>& new_ids);
-
-  std::filesystem::path file_;
-  std::unique_ptr<sqlite::Database> database_;
+  std::string name_;
+  std::unique_ptr<StoreBackend> backend_;
   DescriptionSettings settings_;
 };
 

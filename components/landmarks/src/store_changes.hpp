@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "panvo/landmarks/landmark_store.hpp"
+
+namespace panvo::landmarks {
+
+struct NewLandmark {
+  PanoramicLandmark landmark;
+  DescriptionSettings settings;
+  std::optional<LandmarkUse> use;
+};
+struct MovedLandmarks {
+  std::vector<LandmarkPose> poses;
+};
+struct RemovedLandmark {
+  std::uint32_t id = 0;
+};
+struct PassedLandmarks {
+  std::vector<LandmarkPass> passes;
+};
+
+/// A change of a store, made by one transaction.
+using StoreChange = std::variant<NewLandmark, MovedLandmarks, RemovedLandmark, PassedLandmarks>;
+
+/// Ids of landmarks in a store that others write to, by the ids that this run knows them by.
+using StoredIds = std::map<std::uint32_t, std::uint32_t>;
+
+/// Makes the change. With `ids`, a new landmark whose id another run has taken gets the next free one, which is
+/// remembered for later changes.
+void apply(const StoreChange& change, LandmarkStore& store, StoredIds* ids);
+
+/// Changes that wait for a server, in order. A landmark is moved once, to its latest pose. Not thread-safe.
+class PendingChanges {
+ public:
+  /// `most`: landmarks, removals and passes that may wait; more are refused. Poses are always taken: there is at most one
+  /// for each landmark.
+  explicit PendingChanges(std::size_t most) : most_(most) {}
+
+  bool push(StoreChange change);
+  /// The oldest, to be made now: it still counts until done() is called. Null if there is none.
+  std::shared_ptr<const StoreChange> take();
+  void done() { current_.reset(); }
+
+  std::size_t size() const noexcept { return waiting_.size() + (current_ ? 1 : 0); }
+  /// Changes that came while there was no room.
+  std::uint64_t refused() const noexcept { return refused_; }
+
+ private:
+  void push_poses(MovedLandmarks moved);
+
+  std::size_t most_;
+  std::size_t weight_ = 0;  // of those that wait
+  std::uint64_t refused_ = 0;
+  std::deque<std::shared_ptr<StoreChange>> waiting_;
+  std::shared_ptr<const StoreChange> current_;
+};
+
+}  // namespace panvo::landmarks

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "store_writer.hpp"
+
+#include <stdexcept>
+
+#include "panvo/postgres/worker.hpp"
+
+namespace panvo::landmarks {
+namespace {
+
+class FileWriter final : public StoreWriter {
+ public:
+  FileWriter(StoreLocation location, std::unique_ptr<LandmarkStore> store)
+      : location_(std::move(location)), store_(std::move(store)) {}
+
+  void require(const DescriptionSettings& settings) override {
+    if (!store_) store_ = std::make_unique<LandmarkStore>(location_, settings);
+    store_->require(settings);
+  }
+  void write(StoreChange change) override {
+    if (!store_) throw std::logic_error("a change of a store that was not created");
+    apply(change, *store_, nullptr);
+  }
+
+ private:
+  StoreLocation location_;
+  std::unique_ptr<LandmarkStore> store_;
+};
+
+/// Keeps changes until a thread has brought them to the server. The worker's lock guards what both threads use.
+class ServerWriter final : public StoreWriter {
+ public:
+  ServerWriter(StoreLocation location, std::optional<DescriptionSettings> settings, StorePatience patience,
+               std::size_t most_waiting)
+      : location_(std::move(location)),
+        settings_(std::move(settings)),
+        patience_(std::move(patience)),
+        pending_(most_waiting) {
+    patience_.pause = [this](int attempt, const std::string& problem) { return pause(attempt, problem); };
+    worker_ = std::make_unique<postgres::Worker>([this] { return step(); });
+  }
+
+  void require(const DescriptionSettings& settings) override {
+    if (!settings_) settings_ = settings;  // another robot may be faster: seen when the first landmark is stored
+    const auto found = differences(*settings_, settings);
+    if (found.empty()) return;
+    throw StoreError(location_.shown() + ": its landmarks were described with other settings: " + found.front() +
+                     ". Use the settings of the store, or another database");
+  }
+
+  void write(StoreChange change) override {
+    worker_->locked([&] {
+      if (has_failed_ || pending_.push(std::move(change)) || is_full_) return;
+      is_full_ = true;
+      tell(true, "no room for more changes while the server does not answer: they are lost until there is");
+    });
+    worker_->wake();
+  }
+
+  std::vector<StoreNotice> notices() override {
+    std::vector<StoreNotice> told;
+    worker_->locked([&] { told.swap(notices_); });
+    return told;
+  }
+
+  std::vector<std::pair<std::string, std::string>> diagnostics() const override {
+    std::vector<std::pair<std::string, std::string>> values;
+    worker_->locked([&] {
+      values = {{"store", location_.shown()},
+                {"changes waiting", std::to_string(pending_.size())},
+                {"changes stored", std::to_string(stored_)},
+                {"changes lost", std::to_string(pending_.refused() + lost_)},
+                {"store problem", problem_}};
+    });
+    return values;
+  }
+
+  void finish() override {
+    if (worker_->finish(kFinish_ms)) return;
+    worker_->locked([&] {
+      lost_ += pending_.size();
+      tell(true, std::to_string(pending_.size()) + " changes are lost: the server did not take them before the end");
+    });
+  }
+
+ private:
+  void tell(bool is_error, const std::string& text) { notices_.push_back({is_error, location_.shown() + ": " + text}); }
+
+  // What follows runs on the worker's thread.
+  bool step() {
+    std::shared_ptr<const StoreChange> change;
+    worker_->locked([&] { change = has_failed_ ? nullptr : pending_.take(); });
+    if (!change) return false;
+    for (int attempt = 0;; ++attempt) {
+      try {
+        make(*change);
+        worker_->locked([&] { ended_well(); });
+        return true;
+      } catch (const StoreUnavailable& error) {
+        if (!pause(attempt, error.what())) return false;
+      } catch (const StoreError& error) {
+        worker_->locked([&] { has_failed_ = true; });
+        return give_up(std::string(error.what()) + ". No more landmarks will be stored");
+      } catch (const std::exception& error) {
+        return give_up(error.what() + std::string(": not stored"));
+      }
+    }
+  }
+
+  void make(const StoreChange& change) {
+    if (!store_) {
+      const auto* landmark = std::get_if<NewLandmark>(&change);
+      store_ = landmark ? std::make_unique<LandmarkStore>(location_, landmark->settings, patience_)
+                        : std::make_unique<LandmarkStore>(location_, LandmarkStore(location_, patience_).settings(),
+                                                          patience_);
+    }
+    apply(change, *store_, &ids_);
+  }
+
+  void ended_well() {
+    pending_.done();
+    ++stored_;
+    is_full_ = false;
+    if (!problem_.empty())
+      tell(false, "the server answers again; " + std::to_string(pending_.size()) + " changes wait");
+    problem_.clear();
+  }
+
+  bool give_up(const std::string& why) {
+    worker_->locked([&] {
+      pending_.done();
+      ++lost_;
+      notices_.push_back({true, why});
+    });
+    return true;
+  }
+
+  bool pause(int attempt, const std::string& problem) {
+    worker_->locked([&] {
+      if (problem_.empty()) {
+        notices_.push_back({true, problem + ". Landmarks are kept in memory until it answers"});
+      }
+      problem_ = problem;
+    });
+    return worker_->pause(postgres::backoff_ms(attempt));
+  }
+
+  const StoreLocation location_;
+  std::optional<DescriptionSettings> settings_;
+  StorePatience patience_;
+  std::unique_ptr<LandmarkStore> store_;  // used by the worker only, like the ids
+  StoredIds ids_;
+  PendingChanges pending_;
+  std::vector<StoreNotice> notices_;
+  std::string problem_;  // of the last attempt; empty: none
+  std::uint64_t stored_ = 0, lost_ = 0;
+  bool has_failed_ = false;  // of such an error that repetition does not help
+  bool is_full_ = false;
+  std::unique_ptr<postgres::Worker> worker_;  // ends first
+};
+
+}  // namespace
+
+std::unique_ptr<StoreWriter> write_to_file(const StoreLocation& location, std::unique_ptr<LandmarkStore> store) {
+  return std::make_unique<FileWriter>(location, std::move(store));
+}
+
+std::unique_ptr<StoreWriter> write_to_server(const StoreLocation& location,
+                                             const std::optional<DescriptionSettings>& settings,
+                                             const StorePatience& patience, std::size_t most_waiting) {
+  return std::make_unique<ServerWriter>(location, settings, patience, most_waiting);
+}
+
+}  // namespace panvo::landmarks

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "panvo/landmarks/landmark_store.hpp"
+#include "store_changes.hpp"
+
+namespace panvo::landmarks {
+
+/// Something to tell the user.
+struct StoreNotice {
+  bool is_error = false;
+  std::string text;
+};
+
+/// Writes the changes of a run to its store.
+class StoreWriter {
+ public:
+  StoreWriter() = default;
+  StoreWriter(const StoreWriter&) = delete;
+  StoreWriter& operator=(const StoreWriter&) = delete;
+  virtual ~StoreWriter() = default;
+
+  /// Throws StoreError if the store has other settings. Creates the store if there is none.
+  virtual void require(const DescriptionSettings& settings) = 0;
+  /// To a file: at once; throws StoreError, or std::invalid_argument for a landmark that breaks the rules. To a server:
+  /// later, and never waits.
+  virtual void write(StoreChange change) = 0;
+  /// What there was to tell since the last call.
+  virtual std::vector<StoreNotice> notices() { return {}; }
+  /// State, for diagnostics; may be called on another thread.
+  virtual std::vector<std::pair<std::string, std::string>> diagnostics() const { return {}; }
+  /// Ends writing: what a server does not take in time is lost, which a notice tells.
+  virtual void finish() {}
+};
+
+/// Longest wait of finish() for a server, in addition to that for the answer that is due.
+inline constexpr int kFinish_ms = 5000;
+
+/// `store`: opened to write, if it exists.
+std::unique_ptr<StoreWriter> write_to_file(const StoreLocation& location, std::unique_ptr<LandmarkStore> store);
+/// `settings`: of the store, if it exists. `most_waiting`: see PendingChanges.
+std::unique_ptr<StoreWriter> write_to_server(const StoreLocation& location,
+                                             const std::optional<DescriptionSettings>& settings,
+                                             const StorePatience& patience, std::size_t most_waiting);
+
+}  // namespace panvo::landmarks

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// The component LandmarkStoreComponent with a store on a server, and the writer that it uses.
+#include <chrono>
+
+#include "panvo/interfaces/topics.hpp"
+#include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/runtime/testing.hpp"
+#include "store_fixture.hpp"
+#include "store_writer.hpp"
+
+namespace panvo::landmarks {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+
+class ServerStoreComponent : public ServerTest {
+ protected:
+  /// One run of a robot.
+  struct Robot {
+    runtime::ComponentHarness harness;
+    const std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>>& published =
+        harness.collect(topics::kLandmarks);
+
+    explicit Robot(const std::string& location, const std::map<std::string, std::string>& more = {}) {
+      std::map<std::string, std::string> parameters{{"file", location}, {"answer_s", "1"}};
+      parameters.insert(more.begin(), more.end());
+      harness.load("panvo_landmarks", "LandmarkStoreComponent", parameters);
+    }
+    void publish(const PanoramicLandmark& landmark, const DescriptionSettings& settings = made_up_settings()) {
+      harness.publish(topics::kLandmarks, to_message(landmark, settings, "map"));
+    }
+    /// Position only: makes the component tell its notices.
+    void drive_to(double x) {
+      nav_msgs::msg::Odometry odometry;
+      odometry.header().frame_id("map");
+      odometry.pose().pose().position().x(x);
+      odometry.pose().pose().orientation().w(1.0);
+      for (int i = 0; i < 6; ++i) odometry.pose().covariance()[static_cast<std::size_t>(7 * i)] = 0.01;
+      harness.publish(topics::kOdometryEnhanced, odometry);
+    }
+    bool tells(const std::string& text) {
+      return becomes_true([&] {
+        drive_to(1e6);
+        return harness.log_contains(text);
+      });
+    }
+  };
+
+  std::string stored() const { return sql("SELECT count(*) FROM panvo.landmark"); }
+  bool becomes_stored(const std::string& count) const {
+    return becomes_true([&] {
+      try {
+        return stored() == count;
+      } catch (const std::exception&) {
+        return false;  // no tables yet
+      }
+    });
+  }
+};
+
+PanoramicLandmark moved(PanoramicLandmark landmark, double by_m) {
+  landmark.map_from_base.translation().x() += by_m;
+  return landmark;
+}
+
+TEST_F(ServerStoreComponent, KeepsWhatIsPublishedAndBeginsWithItTheNextTime) {
+  {
+    Robot robot(location());
+    for (std::uint32_t id = 1; id <= 3; ++id) robot.publish(made_up_landmark(id));
+    robot.publish(moved(made_up_landmark(2), 5.0));
+  }
+  const LandmarkStore store(location());
+  ASSERT_EQ(store.size(), 3U);
+  EXPECT_EQ(difference(whole(store, 2), moved(made_up_landmark(2), 5.0)), "");
+  EXPECT_EQ(store.uses().at(3).session, 1U);
+  Robot next(location());
+  EXPECT_EQ(next.published.size(), 3U);
+  EXPECT_TRUE(next.harness.log_contains("3 landmarks loaded"));
+}
+
+TEST_F(ServerStoreComponent, KeepsTheLandmarksOfTwoRobotsApart) {
+  {
+    Robot first(location()), second(location());
+    first.publish(made_up_landmark(1));
+    ASSERT_TRUE(becomes_stored("1"));
+    auto other = made_up_landmark(2);
+    other.id = 1;  // both count from 1
+    second.publish(other);
+    ASSERT_TRUE(becomes_stored("2"));
+    other.map_from_base.translation().x() = 77.0;
+    second.publish(other);
+    first.publish(moved(made_up_landmark(1), 3.0));
+  }
+  const LandmarkStore store(location());
+  EXPECT_EQ(difference(whole(store, 1), moved(made_up_landmark(1), 3.0)), "");
+  auto expected = made_up_landmark(2);
+  expected.map_from_base.translation().x() = 77.0;
+  EXPECT_EQ(difference(whole(store, 2), expected), "");
+}
+
+TEST_F(ServerStoreComponent, LosesNothingWhileTheServerIsAway) {
+  {
+    Robot robot(location());
+    robot.publish(made_up_landmark(1));
+    ASSERT_TRUE(becomes_stored("1"));
+    server_->stop();
+    for (const std::uint32_t id : {2U, 3U, 4U}) robot.publish(made_up_landmark(id));
+    robot.publish(moved(made_up_landmark(3), 4.0));
+    EXPECT_TRUE(robot.tells("the server cannot be reached"));
+    EXPECT_TRUE(robot.tells("Landmarks are kept in memory until it answers"));
+    server_->start();
+    EXPECT_TRUE(robot.tells("the server answers again"));
+    EXPECT_TRUE(becomes_stored("4"));
+  }
+  EXPECT_EQ(difference(whole(LandmarkStore(location()), 3), moved(made_up_landmark(3), 4.0)), "");
+}
+
+TEST_F(ServerStoreComponent, GoesOnWhileTheServerIsFrozen) {
+  Robot robot(location());
+  robot.publish(made_up_landmark(1));
+  ASSERT_TRUE(becomes_stored("1"));
+  server_->freeze();
+  for (std::uint32_t id = 2; id <= 200; ++id) robot.publish(made_up_landmark(id));  // would wait 3 s for each
+  EXPECT_TRUE(robot.tells("the server cannot be reached"));
+  server_->thaw();
+  EXPECT_TRUE(becomes_stored("200"));
+}
+
+TEST_F(ServerStoreComponent, EndsInTimeThoughTheServerIsFrozen) {
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    Robot robot(location());
+    robot.publish(made_up_landmark(1));
+    ASSERT_TRUE(becomes_stored("1"));
+    server_->freeze();
+    robot.publish(made_up_landmark(2));
+  }
+  // 5 s for the end, and at most 5 s to connect and 3 s for an answer; not a measure of speed.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+}
+
+TEST_F(ServerStoreComponent, TellsWhatItHasNoRoomFor) {
+  Robot robot(location(), {{"waiting", "10"}});
+  robot.publish(made_up_landmark(1));
+  ASSERT_TRUE(becomes_stored("1"));
+  server_->stop();
+  robot.publish(made_up_landmark(2));
+  EXPECT_TRUE(robot.tells("cannot be reached"));  // by then it makes the first change, beside which ten may wait
+  for (std::uint32_t id = 3; id <= 20; ++id) robot.publish(made_up_landmark(id));
+  EXPECT_TRUE(robot.tells("no room for more changes while the server does not answer"));
+  server_->start();
+  EXPECT_TRUE(becomes_stored("12"));
+  robot.publish(made_up_landmark(30));
+  EXPECT_TRUE(becomes_stored("13"));
+}
+
+TEST_F(ServerStoreComponent, IsRefusedAtStartIfTheServerIsAway) {
+  server_->stop();
+  EXPECT_THAT(error_of<std::runtime_error>([&] { const Robot robot(location()); }),
+              HasSubstr("the server cannot be reached"));
+}
+
+TEST_F(ServerStoreComponent, KeepsNothingOfOtherSettingsAndSaysSo) {
+  Robot first(location()), second(location());
+  first.publish(made_up_landmark(1));
+  ASSERT_TRUE(becomes_stored("1"));
+  second.publish(made_up_landmark(2), {{"band_rows", "150"}, {"seed", "2"}});
+  EXPECT_TRUE(second.tells("its landmarks were described with other settings: seed is 1 there, 2 here"));
+  EXPECT_TRUE(second.tells("No more landmarks will be stored"));
+  EXPECT_EQ(stored(), "1");
+}
+
+TEST_F(ServerStoreComponent, StoresNothingInAStoreThatIsToBeRead) {
+  EXPECT_THAT(error_of<std::runtime_error>([&] {
+                const Robot robot(location(), {{"read_only", "true"}});
+              }),
+              HasSubstr("contains no landmarks"));
+  LandmarkStore(location(), made_up_settings()).add(made_up_landmark(1));
+  {
+    Robot robot(location(), {{"read_only", "true"}});
+    EXPECT_EQ(robot.published.size(), 1U);
+    robot.publish(made_up_landmark(2));
+    robot.drive_to(3.0);
+  }
+  EXPECT_EQ(stored(), "1");
+}
+
+TEST_F(ServerStoreComponent, CountsWhatIsLostInItsDiagnostics) {
+  { const LandmarkStore made(location(), made_up_settings()); }
+  const auto writer = write_to_server(location(), made_up_settings(), {.connect_s = 2, .answer_s = 1}, 2);
+  server_->stop();
+  for (std::uint32_t id = 1; id <= 6; ++id) {
+    writer->write(NewLandmark{made_up_landmark(id), made_up_settings(), std::nullopt});
+  }
+  const auto value = [&](const std::string& name) {
+    for (const auto& [key, text] : writer->diagnostics()) {
+      if (key == name) return text;
+    }
+    return std::string();
+  };
+  EXPECT_TRUE(becomes_true([&] { return value("store problem").find("cannot be reached") != std::string::npos; }));
+  const auto waiting = std::stoi(value("changes waiting"));
+  EXPECT_EQ(waiting + std::stoi(value("changes lost")), 6);
+  EXPECT_GE(waiting, 2);
+  writer->finish();
+  std::string told;
+  for (const auto& notice : writer->notices()) told += notice.text + "\n";
+  EXPECT_THAT(told, HasSubstr(std::to_string(waiting) + " changes are lost: the server did not take them"));
+  EXPECT_EQ(value("changes lost"), "6");
+}
+
+}  // namespace
+}  // namespace panvo::landmarks
