@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 #include <sstream>
+#include <type_traits>
 
 #include "panvo/postgres/connection.hpp"
 #include "panvo/postgres/worker.hpp"
@@ -245,7 +246,7 @@ class PostgresStore final : public StoreBackend {
   };
 
   template <class Action>
-  decltype(auto) told(Action action) const {
+  std::invoke_result_t<Action> told(Action action) const {
     try {
       return action();
     } catch (const DatabaseError& error) {
@@ -256,7 +257,7 @@ class PostgresStore final : public StoreBackend {
   /// Runs `action` again after a lost connection or a conflict, as long as the patience lasts. The first connection must
   /// succeed at once.
   template <class Action>
-  auto repeated(Action action) const {
+  std::invoke_result_t<Action> repeated(Action action) const {
     for (int attempt = 0;; ++attempt) {
       try {
         return action();

@@ -2,6 +2,7 @@
 // A landmark store in an SQLite file.
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 #include "panvo/sqlite/database.hpp"
 #include "store_backend.hpp"
@@ -218,7 +219,7 @@ class SqliteStore final : public StoreBackend {
 
  private:
   template <class Action>
-  decltype(auto) guarded(Action action) const {
+  std::invoke_result_t<Action> guarded(Action action) const {
     try {
       return action();
     } catch (const sqlite::DatabaseError& error) {
