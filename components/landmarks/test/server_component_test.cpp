@@ -189,7 +189,7 @@ TEST_F(ServerStoreComponent, StoresNothingInAStoreThatIsToBeRead) {
 
 TEST_F(ServerStoreComponent, CountsWhatIsLostInItsDiagnostics) {
   { const LandmarkStore made(location(), made_up_settings()); }
-  const auto writer = write_to_server(location(), made_up_settings(), {.connect_s = 2, .answer_s = 1}, 2);
+  const auto writer = write_to_server(location(), made_up_settings(), little_patience(), 2);
   server_->stop();
   for (std::uint32_t id = 1; id <= 6; ++id) {
     writer->write(NewLandmark{made_up_landmark(id), made_up_settings(), std::nullopt});
