@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <fstream>
+#include <latch>
+#include <mutex>
 #include <set>
 #include <thread>
 
@@ -154,18 +155,20 @@ TEST_F(ServerStore, CountsThePassesOfTwoRobots) {
     auto store = opened();
     for (const std::uint32_t id : {1U, 2U}) store.add(made_up_landmark(id));
   }
-  in_threads(2, [](LandmarkStore& store, int robot) {
-    for (int i = 0; i < 30; ++i) {
+  std::latch both_are_ready(2);
+  in_threads(2, [&](LandmarkStore& store, int robot) {
+    both_are_ready.arrive_and_wait();
+    for (int i = 0; i < 100; ++i) {
       std::vector<LandmarkPass> passes{{1, true, false}, {2, robot == 0, false}};
       if (robot == 0) std::ranges::reverse(passes);
       store.count(passes);
     }
   });
   const auto uses = LandmarkStore(location()).uses();
-  EXPECT_EQ(uses.at(1).passes, 60U);
-  EXPECT_EQ(uses.at(1).recognitions, 60U);
-  EXPECT_EQ(uses.at(2).passes, 60U);
-  EXPECT_EQ(uses.at(2).recognitions, 30U);
+  EXPECT_EQ(uses.at(1).passes, 200U);
+  EXPECT_EQ(uses.at(1).recognitions, 200U);
+  EXPECT_EQ(uses.at(2).passes, 200U);
+  EXPECT_EQ(uses.at(2).recognitions, 100U);
 }
 
 TEST_F(ServerStore, NumbersTheRunsOfSeveralRobotsDifferently) {
@@ -228,8 +231,8 @@ TEST_F(ServerStore, AddsALandmarkOnceIfTheAnswerToItsCommitIsLost) {
       "SELECT count(*) FROM pg_stat_activity WHERE wait_event = 'SyncRep' AND datname = '" + database_ + "'";
   EXPECT_TRUE(becomes_true([&] { return server_->sql("postgres", waiting) == "1"; }));
   kill_sessions();
-  robot.join();
   wait_for_standby(false);
+  robot.join();
   EXPECT_EQ(id, 2U);
   expect_whole(2);
 }
