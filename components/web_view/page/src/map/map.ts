@@ -5,7 +5,8 @@ import { nowhere, widen } from "../model/path.ts";
 import type { Place } from "../model/places.ts";
 import { onSchemeChange, readColours } from "../ui/colours.ts";
 import { drawGrid, drawScaleBar } from "./draw_ground.ts";
-import { drawPulses, drawRings } from "./draw_places.ts";
+import { drawRings } from "./draw_places.ts";
+import { drawFresh } from "./draw_sightings.ts";
 import { drawArrow, drawUncertainty } from "./draw_vehicle.ts";
 import { listen } from "./gestures.ts";
 import type { Layers } from "./scene.ts";
@@ -18,7 +19,7 @@ const hit_px = 14;
 export class MapView {
   view = new View();
   follows = true;
-  layers: Layers = { enhanced: true, binocular: true, truth: true, places: true, corrections: true, uncertainty: true };
+  layers: Layers = { enhanced: true, binocular: true, truth: true, places: true, sightings: true, corrections: true, uncertainty: true };
   tool: Tool | undefined;
   chosen: number | undefined; // id of a place
   cursor_s: number | undefined; // time of the linked cursor
@@ -161,7 +162,7 @@ export class MapView {
     drawGrid(context, view, colours);
     if (this.#scene.draw(context, drive, layers, view, colours, performance.now())) this.draw();
     if (layers.places) drawRings(context, drive, view, colours, this.chosen);
-    if (layers.corrections) drawPulses(context, drive, view, colours);
+    if (layers.corrections) drawFresh(context, drive, view, colours);
     if (layers.uncertainty) drawUncertainty(context, drive, view, colours);
     if (pose) drawArrow(context, view, pose, drive.enhanced.count === 0 ? colours.binocular : colours.enhanced, colours.card);
     this.#drawCursor();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What stands still on the map: paths, places and corrections. */
+/** What stands still on the map: paths, places, sightings and corrections. */
 import type { Drive } from "../model/drive.ts";
 import { identity, type Pose2 } from "../model/geometry.ts";
 import type { Path } from "../model/path.ts";
 import type { Colours } from "../ui/colours.ts";
-import { drawCorrections, drawPlaces, drawSightings } from "./draw_places.ts";
+import { drawPlaces } from "./draw_places.ts";
+import { drawCorrections, drawSightings } from "./draw_sightings.ts";
+import { Pieces } from "./pieces.ts";
 import { trace } from "./trace.ts";
 import type { View } from "./view.ts";
 
@@ -13,6 +15,7 @@ export interface Layers {
   binocular: boolean;
   truth: boolean;
   places: boolean;
+  sightings: boolean;
   corrections: boolean;
   uncertainty: boolean;
 }
@@ -35,17 +38,17 @@ export function linesOf(drive: Drive, layers: Layers): Line[] {
 }
 
 export function drawLine(context: CanvasRenderingContext2D, line: Line, view: View, colours: Colours, from = 0): void {
-  context.beginPath();
-  trace(context, line.path, view, line.mapFromOwn, from);
   context.lineWidth = line.width;
   context.lineJoin = context.lineCap = "round";
   context.strokeStyle = colours[line.colour];
-  context.stroke();
+  const pen = new Pieces(context);
+  trace(pen, line.path, view, line.mapFromOwn, from);
+  pen.end();
 }
 
 export function drawScene(context: CanvasRenderingContext2D, drive: Drive, layers: Layers, view: View, colours: Colours): void {
   for (const line of linesOf(drive, layers)) drawLine(context, line, view, colours);
-  if (layers.corrections) drawSightings(context, drive, view, colours);
+  if (layers.sightings) drawSightings(context, drive, view, colours);
   if (layers.places) drawPlaces(context, drive, view, colours);
   if (layers.corrections) drawCorrections(context, drive, view, colours);
 }

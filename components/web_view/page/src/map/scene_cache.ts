@@ -11,6 +11,7 @@ import { View } from "./view.ts";
 const margin = 0.25; // of the screen, on each side
 const settled_ms = 120; // after the last change of scale, until the picture is redrawn sharply
 const most_scaled = 2.5;
+const ahead = 1.5; // while the map shrinks, the picture is made for a scale that is smaller by this, so that it lasts twice as long
 const most_newest = 500; // poses drawn on top of the picture in each frame
 
 export class SceneCache {
@@ -24,10 +25,11 @@ export class SceneCache {
 
   /** Draws; returns whether it must be called again soon, for a sharper picture. */
   draw(context: CanvasRenderingContext2D, drive: Drive, layers: Layers, view: View, colours: Colours, now_ms: number): boolean {
+    const shrinks = view.px_per_m < this.#scale;
     if (view.px_per_m !== this.#scale) [this.#scale, this.#scaled_ms] = [view.px_per_m, now_ms];
     const lines = linesOf(drive, layers);
     const content = JSON.stringify([
-      lines.map(({ path, mapFromOwn }) => [path.revision, mapFromOwn]), drive.places.version, drive.corrections.length, layers, colours.page, view.width, view.height, devicePixelRatio,
+      lines.map(({ path, mapFromOwn }) => [path.revision, mapFromOwn]), drive.places.version, drive.correctionsTaken, layers, colours.page, view.width, view.height, devicePixelRatio,
     ]);
     const isSharp = this.#view.px_per_m === view.px_per_m;
     const mayBeScaled = now_ms - this.#scaled_ms < settled_ms && Math.abs(Math.log(view.px_per_m / this.#view.px_per_m)) < Math.log(most_scaled);
@@ -35,7 +37,7 @@ export class SceneCache {
     if (content !== this.#content || newest > most_newest || !this.#covers(view) || !(isSharp || mayBeScaled)) {
       this.#content = content;
       this.#counts = lines.map(({ path }) => path.count);
-      this.#render(drive, layers, view, colours);
+      this.#render(drive, layers, shrinks ? Object.assign(new View(), view, { px_per_m: view.px_per_m / ahead }) : view, colours);
     }
     this.#show(context, view);
     // Each line begins a little before the one below it, whose end would cover it.

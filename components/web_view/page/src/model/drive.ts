@@ -21,6 +21,7 @@ export const seriesNames = [
 export type SeriesName = (typeof seriesNames)[number];
 
 const mostEntries = 500;
+const mostCorrections = 5000;
 const pass_s = 4; // between two sightings of one pass
 const restart_s = 1; // a stamp that lies further back begins another drive
 
@@ -36,7 +37,8 @@ export class Drive {
   ellipse: Ellipse | undefined;
   features = new FeatureTrails();
   places = new Places();
-  corrections: Correction[] = [];
+  corrections: Correction[] = []; // the newest
+  correctionsTaken = 0; // also those that are not kept
   entries: Entry[] = [];
   states: { time: number; state: number; usable: boolean }[] = [];
   state: m.LocalizationState | undefined;
@@ -175,6 +177,8 @@ export class Drive {
   #onOutcome(message: m.CorrectionOutcome): void {
     const correction = correctionOf(message, m.seconds(message.header.stamp));
     this.corrections.push(correction);
+    ++this.correctionsTaken;
+    if (this.corrections.length > mostCorrections) this.corrections.shift();
     const place = this.places.all.get(correction.place);
     if (place && correction.outcome === m.Outcome.applied) {
       ++place.corrections;

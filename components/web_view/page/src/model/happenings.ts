@@ -21,6 +21,12 @@ export interface Correction {
   after: Pose2;
 }
 
+/** What a sighting led to, in a few words. */
+export function outcomeText({ outcome, before, after, reason }: Correction): string {
+  if (outcome === Outcome.applied) return `corrected by ${metres(distance(before, after))}`;
+  return outcome === Outcome.betterKnown ? "seen, pose was known better" : `not used${reason ? `: ${reason}` : ""}`;
+}
+
 /** One line for a pass by a place, during which it is seen several times. */
 export function entryOfPass(pass: Correction[]): Entry {
   const { time, place, after, before, reason } = pass[pass.length - 1]!;

@@ -13,6 +13,7 @@ const layerTexts: [keyof Layers, string, string][] = [
   ["binocular", "Stereo odometry alone", "binocular"],
   ["truth", "Ground truth", "truth"],
   ["places", "Places", "landmark"],
+  ["sightings", "Sightings of places", "good"],
   ["corrections", "Corrections", "good"],
   ["uncertainty", "95 % and protection level", "enhanced"],
 ];
@@ -59,6 +60,7 @@ export class MapPanel {
       binocular: drive.binocular.count > 0,
       truth: drive.mapFromTruth !== undefined,
       places: drive.places.all.size > 0,
+      sightings: drive.corrections.length > 0,
       corrections: drive.corrections.length > 0,
       uncertainty: drive.ellipse !== undefined || drive.integrity !== undefined,
     };

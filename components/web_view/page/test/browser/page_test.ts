@@ -159,24 +159,36 @@ const pixelOf = (x: number, y: number) =>
     y,
   );
 
-test("the map draws the vehicle where it is", async () => {
-  await page.click("#fit");
-  const { x, y } = await pixelOf(poseAt(poses - 1).x, poseAt(poses - 1).y);
-  const colour = await page.evaluate(
+/** Of the map, after the next frame. */
+const colourAt = (x: number, y: number) =>
+  page.evaluate(
     (px, py) =>
       new Promise<number[]>((resolve) =>
         requestAnimationFrame(() =>
           requestAnimationFrame(() => {
             const { canvas } = panvo.map;
             const { left, top } = canvas.getBoundingClientRect();
-            resolve([...canvas.getContext("2d")!.getImageData((px - left) * devicePixelRatio, (py - top) * devicePixelRatio, 1, 1).data]);
+            resolve([...canvas.getContext("2d")!.getImageData((px - left) * devicePixelRatio, (py - top) * devicePixelRatio, 1, 1).data].slice(0, 3));
           }),
         ),
       ),
     x,
-    y - 2, // ahead of the middle of the arrow, which points up
+    y,
   );
-  assert.deepEqual(colour.slice(0, 3), [0x00, 0x72, 0xb2]);
+
+test("the map draws the vehicle where it is", async () => {
+  await page.click("#fit");
+  const { x, y } = await pixelOf(poseAt(poses - 1).x, poseAt(poses - 1).y);
+  assert.deepEqual(await colourAt(x, y - 2), [0x00, 0x72, 0xb2]); // ahead of the middle of the arrow, which points up
+});
+
+test("a line leads from a place to where it was seen again, until its layer is switched off", async () => {
+  await page.click("#fit");
+  const { x, y } = await pixelOf(20, 25);
+  assert.deepEqual(await colourAt(x, y), [0x00, 0x80, 0x5d]);
+  for (const layer of ["Sightings of places", "Corrections"]) await page.evaluate((text) => [...document.querySelectorAll<HTMLElement>("#legend label")].find((label) => label.innerText === text)!.click(), layer);
+  assert.notDeepEqual(await colourAt(x, y), [0x00, 0x80, 0x5d]);
+  await page.$$eval("#legend input:not(:checked)", (boxes) => boxes.forEach((box) => (box as HTMLElement).click()));
 });
 
 test("a tap on a place shows it", async () => {

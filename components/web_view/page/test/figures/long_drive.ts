@@ -4,7 +4,7 @@ import type { App } from "../../src/app.ts";
 
 declare const panvo: App & { addPose?: () => void };
 
-/** Fills the page with a drive that winds through a square of 400 m. */
+/** Fills the page with a drive that winds through a square of 400 m; every fifth place was seen again. */
 export function fill(poses: number, places: number): void {
   const { drive } = panvo;
   const at = (i: number) => ({ x: 200 * Math.sin(i / 120) * Math.cos(i / 324) + i * 0.02, y: 200 * Math.sin(i / 197), z: 0 });
@@ -23,6 +23,11 @@ export function fill(poses: number, places: number): void {
   const ids = Array.from({ length: places }, (_, place) => place + 1);
   const pose = (place: number) => ({ pose: { position: at(place * 5), orientation: { ...zero, w: 1 } }, covariance });
   drive.take({ role: "landmarkPoses", topic: "", message: { ids, poses: ids.map(pose) } });
+  const header = { stamp: { sec: 1000, nanosec: 0 }, frame_id: "map" };
+  for (const id of ids.filter((one) => one % 5 === 0)) {
+    const [before, after] = [id * 5 + 30, id * 5 + 35].map((place) => ({ position: at(place), orientation: { ...zero, w: 1 } }));
+    drive.take({ role: "outcome", topic: "", message: { header, landmark_id: id, outcome: 1 + (id % 3), reason: "", before, after } });
+  }
 }
 
 /** For 4 s, with a pose in every other frame. */
