@@ -155,8 +155,8 @@ export class App {
     this.#onTab();
   }
 
-  togglePlayer(): void {
-    void this.#player.toggle();
+  get player(): PlayerPanel {
+    return this.#player;
   }
 
   notify(text: string): void {

@@ -27,7 +27,11 @@ listenForShortcuts({
   m: () => app.mapPanel.toggleMeasure(),
   p: () => app.mapPanel.togglePlace(),
   s: () => void app.takeSnapshot(),
-  " ": () => app.togglePlayer(),
+  " ": () => void app.player.toggle(),
+  ",": () => app.player.jump(-10),
+  ".": () => app.player.jump(10),
+  "<": () => app.player.faster(-1),
+  ">": () => app.player.faster(1),
   "?": () => help.showModal(),
   Escape: () => app.mapPanel.cancel(),
 });

@@ -6,8 +6,11 @@ import type { Drive } from "../model/drive.ts";
 import { clock, h, setText } from "../ui/dom.ts";
 import { FeatureLegend, drawFeatures } from "./features.ts";
 import { shiftOf, sidesOf, ticksOf } from "./heading_tape.ts";
+import { MatchLines, linesBetween, shownIn } from "./match_lines.ts";
 import { Picture } from "./picture.ts";
 import { Thumbnails } from "./thumbnails.ts";
+
+const matchAge_s = 0.7; // between the panorama that is shown and the one whose points are known
 
 type Kind = "panorama" | "left";
 type ImageHappening = Extract<Happening, { kind: "image" }>;
@@ -58,6 +61,7 @@ export class Cameras {
   #left: Camera;
   #place = new Picture();
   #placeCaption = h("span");
+  #lines = new MatchLines();
   #placeElement: HTMLElement;
   #thumbnails = new Thumbnails(() => (this.#drawnPlace = ""));
   #drawnPlace = "";
@@ -74,8 +78,9 @@ export class Cameras {
     this.#panorama = new Camera("panorama", "Panorama", () => this.#tellTopics());
     this.#left = new Camera("left", "Left camera", () => this.#tellTopics());
     this.#left.element.append(this.#legend.element);
-    this.#placeElement = h("figure.camera.place", { hidden: true }, h("figcaption", {}, this.#placeCaption), pictureFrame(this.#place.canvas));
-    element.append(this.empty, this.#panorama.element, this.#placeElement, this.#left.element);
+    this.#placeElement = h("figure.camera.place", { hidden: true }, h("figcaption", {}, this.#placeCaption, this.#lines.button), pictureFrame(this.#place.canvas), this.#lines.legend);
+    const pair = h("div.pair", {}, this.#panorama.element, this.#placeElement, this.#lines.canvas);
+    element.append(this.empty, pair, this.#left.element);
   }
 
   /** `isNear`: the server is on this machine, so that images need not be small. */
@@ -110,6 +115,7 @@ export class Cameras {
   update(): void {
     this.#updateTape();
     this.#updatePlace();
+    this.#updateLines();
     this.#updateFeatures();
   }
 
@@ -185,5 +191,21 @@ export class Cameras {
     if (!image || key === this.#drawnPlace) return;
     this.#drawnPlace = key;
     this.#place.show(image, shiftOf(recognised.heading));
+  }
+
+  /** Of the place below, if the panorama that is shown is one of those in which it was recognised. */
+  #updateLines(): void {
+    const { matches, recognised } = this.drive;
+    const isShown = matches && matches.place === recognised?.place && !this.#placeElement.hidden && Math.abs(this.#panorama.stamp_s - matches.time) < matchAge_s;
+    if (!isShown || this.#panorama.picture.isEmpty || this.#place.isEmpty) return this.#lines.show(undefined, "", () => []);
+    const shift = shiftOf(recognised.heading);
+    const whole = [...this.element.querySelectorAll(".frame")].map((frame) => frame.classList.contains("whole")).join();
+    this.#lines.show(matches.points, `${matches.time} ${shift.toFixed(3)} ${whole}`, ({ left, top }) => {
+      const [panorama, place] = [this.#panorama.picture, this.#place].map(({ canvas }) => {
+        const box = canvas.getBoundingClientRect();
+        return shownIn({ left: box.left - left, top: box.top - top, width: box.width, height: box.height }, canvas.width / canvas.height);
+      });
+      return linesBetween(matches.points, panorama!, place!, shift);
+    });
   }
 }

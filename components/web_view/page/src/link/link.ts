@@ -4,7 +4,9 @@ import { BackOff } from "./back_off.ts";
 import { Channels, type Subscription } from "./channels.ts";
 import { encoded } from "./codec.ts";
 import type { Happening, Order, RoleMessage } from "./events.ts";
-import { featuresOf, type PointCloud } from "../model/features.ts";
+import { featuresOf } from "../model/features.ts";
+import { matchesOf } from "../model/matches.ts";
+import type { PointCloud } from "../model/point_cloud.ts";
 import { publishable } from "./initial_pose.ts";
 import { Requests } from "./requests.ts";
 import { parseBinary, parseText, publishFrame, subprotocols, type ServerText } from "./wire.ts";
@@ -69,8 +71,13 @@ export class Link {
     this.#batch = [];
   }
 
-  tellTraffic(): void {
+  /** The time of the recording, if it was told anew since the last call. */
+  tellTime(): void {
     if (this.#time_s !== undefined) this.surroundings.emit({ kind: "time", time_s: this.#time_s });
+    this.#time_s = undefined;
+  }
+
+  tellTraffic(): void {
     const traffic = { bytes: this.#bytes, unknown: this.#channels.unknown, undecodable: this.#undecodable };
     this.surroundings.emit({ kind: "traffic", traffic });
   }
@@ -190,6 +197,7 @@ export class Link {
 /** Without the features of a landmark, which nobody looks at and which are most of its bytes; of a point cloud what is drawn. */
 function shortened(role: string, message: unknown): unknown {
   if (role === "points") return featuresOf(message as PointCloud);
+  if (role === "matchPoints") return matchesOf(message as PointCloud);
   if (role !== "landmark") return message;
   const { header, id, pose, is_junction, thumbnail } = message as Record<string, unknown>;
   return { header, id, pose, is_junction, thumbnail: (thumbnail as Uint8Array).slice() };

@@ -18,6 +18,7 @@ export const roles = {
   landmark: { name: "landmarks", type: "panvo_msgs/msg/PanoramicLandmark" },
   landmarkPoses: { name: "landmarks/poses", type: "panvo_msgs/msg/LandmarkPoses" },
   match: { name: "landmarks/match", type: "panvo_msgs/msg/LandmarkMatch" },
+  matchPoints: { name: "landmarks/match_points", type: "sensor_msgs/msg/PointCloud2" },
   outcome: { name: "correction/outcome", type: "panvo_msgs/msg/CorrectionOutcome" },
   state: { name: "localization/state", type: "panvo_msgs/msg/LocalizationState" },
   integrity: { name: "localization/integrity", type: "panvo_msgs/msg/Integrity" },

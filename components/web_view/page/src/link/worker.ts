@@ -24,3 +24,4 @@ const link = new Link({
 
 thread.onmessage = ({ data }) => link.obey(data);
 setInterval(() => link.tellTraffic(), 1000);
+setInterval(() => link.tellTime(), 200);

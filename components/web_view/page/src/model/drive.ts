@@ -7,6 +7,7 @@ import { componentsOf, droppedBy, type Component } from "./components.ts";
 import { FeatureTrails, type Features } from "./features.ts";
 import { composed, distance, ellipseOf, flat, identity, wrapped, yawOf, type Ellipse, type Pose2 } from "./geometry.ts";
 import { correctionOf, entryOfPass, entryOfState, type Correction, type Entry } from "./happenings.ts";
+import type { Matches } from "./matches.ts";
 import * as m from "./messages.ts";
 import { Odometer } from "./odometer.ts";
 import { Path } from "./path.ts";
@@ -23,7 +24,7 @@ export type SeriesName = (typeof seriesNames)[number];
 const mostEntries = 500;
 const mostCorrections = 5000;
 const pass_s = 4; // between two sightings of one pass
-const restart_s = 1; // a stamp that lies further back begins another drive
+const restart_s = 1; // a stamp that lies further back is of a bag that was moved
 
 export class Drive {
   enhanced = new Path();
@@ -45,6 +46,7 @@ export class Drive {
   integrity: m.Integrity | undefined;
   quality: m.OdometryQuality | undefined;
   match: m.LandmarkMatch | undefined;
+  matches: Matches | undefined; // the newest points of a place
   recognised: { place: number; heading: number; time: number } | undefined; // the last one
   components = new Map<string, Component>();
   series = Object.fromEntries(seriesNames.map((name) => [name, new Series()])) as Record<SeriesName, Series>;
@@ -109,6 +111,7 @@ export class Drive {
     landmark: (message: m.Landmark) => this.#onLandmark(message),
     landmarkPoses: (message: m.LandmarkPoses) => this.places.move(message),
     match: (message: m.LandmarkMatch) => this.#onMatch(message),
+    matchPoints: (matches: Matches | undefined) => matches && (this.matches = matches),
     outcome: (message: m.CorrectionOutcome) => this.#onOutcome(message),
     state: (message: m.LocalizationState) => this.#onState(message),
     integrity: (message: m.Integrity) => this.#onIntegrity(message),
@@ -126,7 +129,7 @@ export class Drive {
 
   #onPose({ header, pose, twist }: m.Odometry): void {
     const time = m.seconds(header.stamp);
-    if (time < this.now - restart_s) this.#restart();
+    if (time < this.now - restart_s) this.#goBack(time);
     this.begin = Math.min(this.begin, time);
     this.now = Math.max(this.now, time);
     this.enhanced.add(time, flat(pose.pose));
@@ -142,7 +145,7 @@ export class Drive {
   #onOdometry({ header, pose, twist }: m.Odometry): void {
     const time = m.seconds(header.stamp);
     const last = this.binocular.count > 0 ? this.binocular.times[this.binocular.count - 1]! : -Infinity;
-    if (time < last - restart_s) this.#restart();
+    if (time < last - restart_s) this.#goBack(time);
     this.binocular.add(time, flat(pose.pose));
     this.#odometer.add(this.binocular.last!);
     this.#count("odometryRate", time);
@@ -298,7 +301,29 @@ export class Drive {
     if (rate !== undefined) this.#add(name, time, rate);
   }
 
-  /** The time went back: a bag was started again. */
+  /** The time went back: a bag was moved, or started again. What lies before stays. */
+  #goBack(time: number): void {
+    if (!(time > this.begin + restart_s)) return this.#restart();
+    const { enhanced, binocular, truth, dropped, cpu, memory } = this;
+    for (const path of [enhanced, binocular, truth]) path.cut(time);
+    for (const series of [...Object.values(this.series), ...dropped.values(), ...cpu.values(), ...memory.values()]) series.cut(time);
+    for (const { place } of this.corrections.filter((one) => one.time >= time && one.outcome === m.Outcome.applied)) {
+      const seen = this.places.all.get(place);
+      if (seen) --seen.corrections;
+    }
+    this.corrections = this.corrections.filter((one) => one.time < time);
+    ++this.correctionsTaken; // so that it is noticed
+    this.entries = this.entries.filter((one) => one.time < time);
+    this.states = this.states.filter((one) => one.time < time);
+    this.now = time;
+    this.matches = this.recognised = undefined;
+    this.#odometer = Odometer.of(binocular);
+    this.#pass = [];
+    this.#turns.clear();
+    this.#rates.clear();
+  }
+
+  /** Another drive. */
   #restart(): void {
     const { yawOfFrame, version, components } = this;
     Object.assign(this, new Drive(), { yawOfFrame, version: version + 1, components });

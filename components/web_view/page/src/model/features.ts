@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Points that the odometry follows in the left image. */
-import { seconds, type Header } from "./messages.ts";
-
-/** The members of sensor_msgs/msg/PointCloud2 that are read. */
-export interface PointCloud {
-  header: Header;
-  width: number;
-  height: number;
-  fields: { name: string; offset: number }[];
-  is_bigendian: boolean;
-  point_step: number;
-  data: Uint8Array;
-}
+import { seconds } from "./messages.ts";
+import { pointsOf, type PointCloud } from "./point_cloud.ts";
 
 /** As in the odometry's points. */
 export const FeatureState = { new: 0, inlier: 1, outlier: 2 } as const;
@@ -29,17 +19,8 @@ export interface Features {
 
 /** Undefined if the cloud is not one of image points. */
 export function featuresOf(cloud: PointCloud): Features | undefined {
-  const offset = (name: string) => cloud.fields.find((field) => field.name === name)?.offset;
-  const [u, v, track, state] = [offset("u"), offset("v"), offset("track"), offset("state")];
-  if (u === undefined || v === undefined || track === undefined || state === undefined) return undefined;
-  const count = Math.min(cloud.width * cloud.height, Math.floor(cloud.data.length / cloud.point_step));
-  const view = new DataView(cloud.data.buffer, cloud.data.byteOffset, cloud.data.byteLength);
-  const isLittle = !cloud.is_bigendian;
-  const points = Array.from({ length: count }, (_, i) => {
-    const at = i * cloud.point_step;
-    return { track: view.getUint32(at + track, isLittle), u: view.getFloat32(at + u, isLittle), v: view.getFloat32(at + v, isLittle), state: view.getUint8(at + state) };
-  });
-  return { time: seconds(cloud.header.stamp), points };
+  const points = pointsOf(cloud, ["track", "u", "v", "state"]);
+  return points && { time: seconds(cloud.header.stamp), points };
 }
 
 /** A point, where it is and where it was in the frames before, newest first. */

@@ -51,6 +51,19 @@ export class Path {
     this.chunks = [];
   }
 
+  /** Removes the poses from `time` on. */
+  cut(time: number): void {
+    const count = this.indexAt(time - 1e-6) + 1;
+    if (count === this.count) return;
+    ++this.revision;
+    this.count = count;
+    this.chunks.length = Math.ceil(count / Path.chunk);
+    const begin = (this.chunks.length - 1) * Path.chunk;
+    if (count === 0) return;
+    const bounds = (this.chunks[this.chunks.length - 1] = nowhere());
+    for (let i = begin; i < count; ++i) widen(bounds, this.xs[i]!, this.ys[i]!);
+  }
+
   at(index: number): Pose2 {
     return { x: this.xs[index]!, y: this.ys[index]!, yaw: this.yaws[index]! };
   }

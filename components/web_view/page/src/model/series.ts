@@ -16,6 +16,11 @@ export class Series {
     this.values.push(Number.isFinite(value) ? value : null);
   }
 
+  /** Removes the values from `time` on. */
+  cut(time: number): void {
+    this.times.length = this.values.length = this.indexFrom(time);
+  }
+
   get last(): number | null {
     return this.values[this.values.length - 1] ?? null;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A short drive to be published: a quarter of a circle to the left, with odometry that drifts, a place, and a correction. */
-import { Outcome, State } from "../../src/model/messages.ts";
-import { covariance, header, odometry, pointCloud, pose } from "../modules/make.ts";
+import { Match, Outcome, State } from "../../src/model/messages.ts";
+import { covariance, header, matchCloud, odometry, pointCloud, pose } from "../modules/make.ts";
 
 export const topics = {
   "/odometry/enhanced": "nav_msgs/msg/Odometry",
@@ -61,4 +61,28 @@ export function* messages(): Generator<[keyof typeof topics, unknown]> {
   const red = Array.from({ length: image.width * image.height }, () => [0, 0, 250]).flat();
   yield ["/stereo/left/image_rect", { header: header(end, "left"), ...image, encoding: "bgr8", is_bigendian: 0, step: 3 * image.width, data: new Uint8Array(red) }];
   yield ["/odometry/points", pointCloud(end, [{ ...point, track: 5, state: 1 }])];
+}
+
+export const placeTopics = {
+  "/panorama/image": "sensor_msgs/msg/Image",
+  "/landmarks": "panvo_msgs/msg/PanoramicLandmark",
+  "/landmarks/match": "panvo_msgs/msg/LandmarkMatch",
+  "/landmarks/match_points": "sensor_msgs/msg/PointCloud2",
+};
+
+export const panorama = { width: 64, height: 32 };
+/** In the middle of the panorama; when the place was built it was seen a quarter of a turn further right. */
+export const seenPoint = { u: 0.5, v: 0.55, place_u: 0.25, place_v: 0.55, state: 1 };
+
+/** Place 7 is seen again, with the vehicle turned by a quarter to the left. `thumbnail`: JPEG of the place. */
+export function* placeMessages(thumbnail: Uint8Array): Generator<[keyof typeof placeTopics, unknown]> {
+  const time = start_s + (poses - 1) / rate_hz;
+  const { position, orientation } = pose({ x: 10, y: 20, yaw: 0 });
+  const landmark = { header: header(start_s), id: 7, pose: { pose: { position, orientation }, covariance: full(0.01) }, panorama_pose: { position, orientation }, is_junction: false, settings: "" };
+  yield ["/landmarks", { ...landmark, histogram: [], large_features: [], small_features: [], keypoints: [], thumbnail }];
+  const grey = new Uint8Array(panorama.width * panorama.height).fill(90);
+  yield ["/panorama/image", { header: header(time, "panorama"), ...panorama, encoding: "mono8", is_bigendian: 0, step: panorama.width, data: grey }];
+  const distances = { histogram_distance: 0.1, large_distance: 0.2, small_distance: 0.2, candidates: 1, kept_after_histogram: 1, kept_after_large: 1 };
+  yield ["/landmarks/match", { header: header(time, "panorama"), state: Match.locked, reason: "", landmark_id: 7, heading_rad: Math.PI / 2, ...distances }];
+  yield ["/landmarks/match_points", matchCloud(time, 7, [seenPoint, { ...seenPoint, u: 0.8, state: 2 }])];
 }

@@ -8,7 +8,7 @@ import test, { after, before } from "node:test";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
 import type { App } from "../../src/app.ts";
 import { near } from "../modules/make.ts";
-import { image, messages, point, poseAt, poses, topics } from "./drive_messages.ts";
+import { image, messages, placeMessages, placeTopics, point, poseAt, poses, topics } from "./drive_messages.ts";
 import { Publisher } from "./publisher.ts";
 import { Server } from "./server.ts";
 
@@ -91,7 +91,7 @@ test("the image has the colour that was published", async () => {
 });
 
 test("the points of the odometry are drawn where they are seen, in the colour of their kind", async () => {
-  await becomes(".legend .inlier", "1 follow the motion");
+  await becomes(".left .legend .inlier", "1 follow the motion");
   const colours = await page.$eval(
     ".camera.left canvas",
     (canvas, u, v) => [0, 20].map((away) => [...(canvas as HTMLCanvasElement).getContext("2d")!.getImageData(u + away, v, 1, 1).data]),
@@ -101,10 +101,46 @@ test("the points of the odometry are drawn where they are seen, in the colour of
   assert.deepEqual(colours, [[0x35, 0xc9, 0x9b, 255], [250, 0, 0, 255]]);
 });
 
+/** Of the lines between the pictures: `down`: fraction of the way from the one point to the other. */
+const lineColour = (u: number, down: number) =>
+  page.evaluate(
+    (column, part) => {
+      const canvas = document.querySelector<HTMLCanvasElement>("canvas.lines")!;
+      const [area, above, below] = ["canvas.lines", ".panorama canvas", ".place canvas"].map((one) => document.querySelector(one)!.getBoundingClientRect());
+      const y = above!.top + above!.height / 2 + part * (below!.top + below!.height / 2 - above!.top - above!.height / 2) - area!.top;
+      const x = above!.left + column * above!.width - area!.left;
+      const { data } = canvas.getContext("2d")!.getImageData(Math.round(x) - 1, Math.round(y), 3, 1);
+      return [0, 1, 2].map((i) => [...data.subarray(4 * i, 4 * i + 4)]).sort((a, b) => b[3]! - a[3]!)[0]!;
+    },
+    u,
+    down,
+  );
+
+test("lines lead from the panorama to the same points of the recognised place, which is turned to the same heading", async () => {
+  await publisher.advertise(placeTopics);
+  await page.waitForFunction(() => panvo.topics.some(({ topic }) => topic === "/landmarks/match_points"));
+  const jpeg = await page.evaluate(() => {
+    const canvas = Object.assign(document.createElement("canvas"), { width: 64, height: 32 });
+    return canvas.toDataURL("image/jpeg").split(",")[1]!;
+  });
+  for (const [topic, message] of placeMessages(new Uint8Array(Buffer.from(jpeg, "base64")))) publisher.publish(topic, message);
+  await becomes(".place .legend .inlier", "1 points agree with the pose");
+  await becomes(".place .legend .outlier", "1 contradict it");
+  await becomes(".place figcaption", "turned by 90°");
+  const [red, green, , alpha] = await lineColour(0.5, 0.5);
+  assert.ok(green! > 150 && red! < 90 && alpha! > 100, `${red} ${green} ${alpha}`); // straight down
+  assert.equal((await lineColour(0.4, 0.5))[3], 0);
+  await page.click(".place button");
+  await page.waitForFunction(() => {
+    const canvas = document.querySelector<HTMLCanvasElement>("canvas.lines")!;
+    return canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height).data.every((value) => value === 0);
+  });
+  await page.click(".place button"); // on again
+});
+
 test("events and components are listed", async () => {
   await page.click('aside button[data-tab="events"]');
   await becomes(".events", "Place 7 recognised");
-  assert.match(await textOf(".events li"), /./);
   await page.click('aside button[data-tab="system"]');
   await becomes(".components", "localizer");
   assert.match(await textOf(".components"), /too slow; 3 dropped in all/);
@@ -186,7 +222,8 @@ test("a line leads from a place to where it was seen again, until its layer is s
   await page.click("#fit");
   const { x, y } = await pixelOf(20, 25);
   assert.deepEqual(await colourAt(x, y), [0x00, 0x80, 0x5d]);
-  for (const layer of ["Sightings of places", "Corrections"]) await page.evaluate((text) => [...document.querySelectorAll<HTMLElement>("#legend label")].find((label) => label.innerText === text)!.click(), layer);
+  const texts = ["Sightings of places", "Corrections"];
+  await page.$$eval("#legend label", (labels, those) => labels.forEach((label) => those.includes((label as HTMLElement).innerText) && (label as HTMLElement).click()), texts);
   assert.notDeepEqual(await colourAt(x, y), [0x00, 0x80, 0x5d]);
   await page.$$eval("#legend input:not(:checked)", (boxes) => boxes.forEach((box) => (box as HTMLElement).click()));
 });

@@ -32,9 +32,10 @@ export class Publisher {
 
   /** Makes the topics known, so that they can be published and the page subscribes to them. */
   async advertise(types: Record<string, string>): Promise<void> {
-    const channels = Object.entries(types).map(([topic, schemaName], i) => {
-      this.#published.set(topic, i + 1);
-      return { id: i + 1, topic, encoding: "cdr", schemaName };
+    const channels = Object.entries(types).map(([topic, schemaName]) => {
+      const id = this.#published.size + 1;
+      this.#published.set(topic, id);
+      return { id, topic, encoding: "cdr", schemaName };
     });
     this.#send({ op: "advertise", channels });
     await this.until(() => Object.keys(types).every((topic) => this.#offered.has(topic)));

@@ -110,6 +110,21 @@ test("replaying a bag begins a new drive", () => {
   assert.equal(drive.now, 100);
 });
 
+test("a bag that is moved back keeps what lies before", () => {
+  const drive = driven(600);
+  take(drive, "landmark", landmark(1, 3, 101));
+  take(drive, "outcome", outcome(110, Outcome.applied, 1, 1.5));
+  take(drive, "outcome", outcome(150, Outcome.applied, 1, 1.5));
+  take(drive, "enhanced", odometry(130, { x: 60, y: 0, yaw: 0 }, 2));
+  take(drive, "binocular", odometry(130, { x: 2, y: 65, yaw: 0 }, 2));
+  assert.deepEqual([drive.enhanced.count, drive.truth.count, drive.binocular.count], [301, 300, 301]);
+  assert.deepEqual([drive.begin, drive.now, drive.corrections.length, drive.entries.length], [100, 130, 1, 2]);
+  assert.equal(drive.places.all.get(1)!.corrections, 1);
+  near(drive.driven_m, 60, 0.5);
+  near(drive.enhanced.bounds().right, 60, 1e-6);
+  assert.ok(drive.series.speed.times.at(-1)! <= 130);
+});
+
 test("a snapshot restores the drive", () => {
   const drive = driven(30);
   take(drive, "landmark", landmark(1, 3, 100.5));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import test from "node:test";
-import { FeatureTrails, featuresOf, type PointCloud } from "../../src/model/features.ts";
+import { FeatureTrails, featuresOf } from "../../src/model/features.ts";
+import type { PointCloud } from "../../src/model/point_cloud.ts";
 import { near, pointCloud } from "./make.ts";
 
 test("the points of a cloud, wherever it lies in its buffer", () => {

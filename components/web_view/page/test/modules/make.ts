@@ -19,29 +19,43 @@ export function odometry(seconds: number, at: Pose2, speed = 0) {
   return { header: header(seconds), pose: { pose: pose(at), covariance: covariance(0.04, 0, 0.01) }, twist: { twist: { linear: { x: speed, y: 0, z: 0 } } } };
 }
 
-/** Points as the odometry publishes them, in its layout. */
-export function pointCloud(seconds: number, points: { u: number; v: number; track: number; state: number }[]) {
-  const step = 28;
+type Layout = readonly (readonly [name: string, offset: number, datatype: number])[];
+
+function cloudOf(seconds: number, frame: string, step: number, layout: Layout, points: Record<string, number>[]) {
   const data = new Uint8Array(step * points.length);
   const view = new DataView(data.buffer);
-  points.forEach(({ u, v, track, state }, i) => {
-    view.setFloat32(i * step + 12, u, true);
-    view.setFloat32(i * step + 16, v, true);
-    view.setUint32(i * step + 20, track, true);
-    view.setUint8(i * step + 24, state);
+  points.forEach((point, i) => {
+    for (const [name, offset, datatype] of layout) {
+      const at = i * step + offset;
+      const value = point[name] ?? 0;
+      if (datatype === 7) view.setFloat32(at, value, true);
+      else if (datatype === 6) view.setUint32(at, value, true);
+      else view.setUint8(at, value);
+    }
   });
-  const fields = [["x", 0, 7], ["y", 4, 7], ["z", 8, 7], ["u", 12, 7], ["v", 16, 7], ["track", 20, 6], ["state", 24, 2]] as const;
   return {
-    header: header(seconds, "odom"),
+    header: header(seconds, frame),
     height: 1,
     width: points.length,
-    fields: fields.map(([name, offset, datatype]) => ({ name, offset, datatype, count: 1 })),
+    fields: layout.map(([name, offset, datatype]) => ({ name, offset, datatype, count: 1 })),
     is_bigendian: false,
     point_step: step,
     row_step: data.length,
     data,
     is_dense: true,
   };
+}
+
+/** Points as the odometry publishes them, in its layout. */
+export function pointCloud(seconds: number, points: { u: number; v: number; track: number; state: number }[]) {
+  return cloudOf(seconds, "odom", 28, [["x", 0, 7], ["y", 4, 7], ["z", 8, 7], ["u", 12, 7], ["v", 16, 7], ["track", 20, 6], ["state", 24, 2]], points);
+}
+
+const matchLayout: Layout = [["x", 0, 7], ["y", 4, 7], ["z", 8, 7], ["u", 12, 7], ["v", 16, 7], ["place_u", 20, 7], ["place_v", 24, 7], ["landmark", 28, 6], ["state", 32, 2]];
+
+/** Points as the position corrector publishes them, in its layout. */
+export function matchCloud(seconds: number, landmark: number, points: { u: number; v: number; place_u: number; place_v: number; state: number }[]) {
+  return cloudOf(seconds, "panorama", 36, matchLayout, points.map((point) => ({ ...point, landmark })));
 }
 
 export function near(actual: number, expected: number, tolerance = 1e-9): void {

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The controls of a bag, in a headless Chromium: what they ask of the player, by keys and on a phone. */
+import assert from "node:assert/strict";
+import test, { after, before } from "node:test";
+import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import type { App } from "../../src/app.ts";
+import { Server } from "./server.ts";
+
+declare const panvo: App; // in the page
+
+const server = new Server();
+let browser: Browser;
+
+before(async () => {
+  await server.start();
+  browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM!, headless: true, args: ["--no-sandbox"] });
+});
+
+after(async () => {
+  await browser?.close();
+  await server.remove();
+});
+
+async function opened(width: number, height: number): Promise<Page> {
+  const page = await browser.newPage();
+  await page.setViewport({ width, height });
+  await page.goto(server.url());
+  await page.waitForFunction(() => document.body.dataset.link === "open");
+  return page;
+}
+
+const becomes = (page: Page, state: string) => page.waitForFunction((text) => document.querySelector("#player .state")?.textContent === text, { polling: 100 }, state);
+
+/** Acts as a player whose bag is at 100 s, and notes what the page asks of it. */
+function actAsPlayer(): void {
+  const player = { paused: false, rate: 1, asked: [] as string[] };
+  Object.assign(globalThis, { player });
+  panvo.send = (order) => {
+    if (order.kind !== "call") return;
+    const name = order.service.replace("/rosbag2_player/", "");
+    const { time, rate } = order.request as { time?: { sec: number; nanosec: number }; rate?: number };
+    if (!/^(is_|get_)/.test(name)) player.asked.push(`${name}${time ? ` ${time.sec + time.nanosec * 1e-9}` : ""}${rate ? ` ${rate}` : ""}`);
+    if (name === "toggle_paused") player.paused = !player.paused;
+    if (rate) player.rate = rate;
+    queueMicrotask(() => panvo.on({ kind: "reply", call: order.call, response: player }));
+  };
+  panvo.on({ kind: "services", services: [{ name: "/rosbag2_player/pause", type: "rosbag2_interfaces/srv/Pause" }] });
+  for (const time_s of [90, 120, 100]) panvo.on({ kind: "time", time_s });
+}
+declare const player: { asked: string[] };
+
+for (const [name, width, height] of [["computer", 1280, 800], ["phone", 390, 844]] as const) {
+  test(`a bag is paused, moved and played faster by keys and buttons with names, on a ${name}`, async () => {
+    const page = await opened(width, height);
+    if (name === "phone") await page.click('.tabs button[data-tab="time"]');
+    await page.evaluate(() => (document.activeElement as HTMLElement).blur()); // the space bar would press the button
+    await page.evaluate(actAsPlayer);
+    await becomes(page, "playing");
+    const press = async (key: string, asked: string) => {
+      await page.keyboard.press(key as "a");
+      await page.waitForFunction((what) => player.asked.at(-1) === what, {}, asked);
+    };
+    await press("Space", "toggle_paused");
+    await becomes(page, "paused");
+    await press(".", "seek 110");
+    await press(".", "seek 120"); // from where it was moved to, although the server has not told that time yet
+    await press(",", "seek 110");
+    await press(">", "set_rate 2");
+    await press("<", "set_rate 1");
+    await page.focus('#player [aria-label="Position in what was played"]');
+    await press("Home", "seek 90");
+    await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+    await press(",", "seek 80"); // before the page was opened
+    await page.evaluate(() => panvo.on({ kind: "time", time_s: 85 })); // where the bag begins
+    await page.waitForFunction(() => document.querySelector("#player input")!.getAttribute("aria-valuetext") === "0:00 of 0:35");
+    const names = await page.$$eval("#player > :not(.state)", (all) => all.map((one) => one.getAttribute("aria-label")));
+    assert.deepEqual(names, ["10 s back", "Play", "10 s on", "Position in what was played", "Speed"]);
+    const small = await page.$$eval("#player button, #player input, #player select", (all) => all.map((one) => one.getBoundingClientRect()).filter((box) => box.width < 24 || box.height < 24 || box.right > innerWidth).length);
+    assert.equal(small, 0);
+    await page.close();
+  });
+}
