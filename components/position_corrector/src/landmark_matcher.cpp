@@ -132,6 +132,7 @@ void LandmarkMatcher::verify(const PanoramaFrame& frame, const landmarks::Landma
       if (!match.reason.empty()) continue;  // the first candidate is the most similar one
       match.reason = fmt::format("landmark {}: {}", candidate.landmark->id, found.reason);
       match.inliers = found.inliers;
+      match.points = std::move(found.points);
       match.weak_pose = std::move(found.weak_pose);
       continue;
     }
@@ -140,6 +141,7 @@ void LandmarkMatcher::verify(const PanoramaFrame& frame, const landmarks::Landma
     match.state = MatchState::kLocked;
     match.reason = fmt::format("{} of {} points agree", found.inliers, found.matches);
     match.inliers = found.inliers;
+    match.points = std::move(found.points);
     match.heading_rad = found.pose->heading_rad;
     match.pose = std::move(found.pose);
     const double offset_m = match.pose->landmark_from_panorama.translation().norm();
@@ -172,6 +174,7 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
         estimate_panorama_pose(keypoints, library.keypoints(lock.landmark_id), match.heading_rad, parameters_.pose);
     match.reason = found.pose ? fmt::format("{} of {} points agree", found.inliers, found.matches) : found.reason;
     match.inliers = found.inliers;
+    match.points = std::move(found.points);
     match.weak_pose = std::move(found.weak_pose);
     lock.pass.curve.push_back({frame.travelled_m, match.small_distance});
     // Far from the landmark the distance is flat and its noise has minima, but poses tell whether it is still ahead.
@@ -197,6 +200,7 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
   match = lock.best;
   match.state = MatchState::kMatched;
   match.reason.clear();
+  match.points.clear();
   match.pass = std::move(lock.pass);
   seen_at_m_[lock.landmark_id] = frame.travelled_m;
   lock_.reset();

@@ -116,6 +116,17 @@ std::vector<SightedPoint> agreeing(std::span<const SightedPoint> sightings, cons
   return kept;
 }
 
+/// For display: the points that agree, and of those matched by their descriptors the others.
+std::vector<PointMatch> matches_of(std::span<const SightedPoint> agreeing, std::span<const SightedPoint> matched) {
+  std::vector<PointMatch> matches;
+  for (const auto& seen : agreeing) matches.push_back({seen.point, seen.bearing, true});
+  for (const auto& seen : matched) {
+    const auto is_same = [&](const SightedPoint& other) { return other.point == seen.point; };
+    if (std::ranges::none_of(agreeing, is_same)) matches.push_back({seen.point, seen.bearing, false});
+  }
+  return matches;
+}
+
 /// Factor on the covariance for selection bias: inliers were selected for agreement with the pose, so their residuals
 /// are too small. The selection uses as many degrees of freedom as the fit, which matters for few points.
 double by_choice(std::size_t points) {
@@ -171,6 +182,7 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   }
   PanoramaPoseResult result;
   result.matches = static_cast<int>(matched.size());
+  result.points = matches_of({}, matched);
   const int needed =
       std::max(parameters.min_inliers, static_cast<int>(std::ceil(parameters.min_inliers_share * result.matches)));
   const auto few = [&](std::string_view what, int count) {
@@ -208,6 +220,7 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
 
   result.reason = objection(refined.landmark_from_panorama, heading_rad, parameters);
   if (!result.reason.empty()) return result;
+  result.points = matches_of(guided, matched);
   const PanoramaPose pose{refined.landmark_from_panorama, by_choice(guided.size()) * refined.covariance,
                           heading_of(refined.landmark_from_panorama.linear())};
   if (result.inliers < needed) {

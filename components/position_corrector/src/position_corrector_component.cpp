@@ -21,6 +21,7 @@
 #include "panvo/position_corrector/landmark_matcher.hpp"
 #include "panvo/position_corrector/match_messages.hpp"
 #include "panvo/position_corrector/paper_correction.hpp"
+#include "panvo/position_corrector/point_messages.hpp"
 #include "panvo/position_corrector/position_correction.hpp"
 #include "panvo/position_corrector/spilled_keypoints.hpp"
 #include "panvo/runtime/component.hpp"
@@ -77,7 +78,8 @@ struct ComponentParameters {
 };
 
 /// panorama/image, odometry/binocular, landmarks, landmarks/poses, /tf_static -> landmarks/match for each panorama,
-/// with the reason if there is no match; correction for each panorama that locks a landmark or that geometry rejects.
+/// with the reason if there is no match; correction for each panorama that locks a landmark or that geometry rejects;
+/// landmarks/match_points with what such a panorama shows of the landmark, for readers.
 class PositionCorrectorComponent final : public runtime::Component {
  public:
   explicit PositionCorrectorComponent(runtime::Context& context)
@@ -92,6 +94,7 @@ class PositionCorrectorComponent final : public runtime::Component {
         matcher_(parameters_.matching, parameters_.keypoints, describer_, &timer_),
         match_(context.output(topics::kLandmarkMatch)),
         correction_(context.output(topics::kCorrection)),
+        points_(context.output(kLandmarkPoints)),
         transforms_(context) {
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
@@ -169,6 +172,9 @@ class PositionCorrectorComponent final : public runtime::Component {
     const bool is_unlike_before = fault && !landmarks::find_fault(*panorama);
     const auto match = is_unlike_before ? unusable(stamp_ns, *fault) : matcher_.match(frame, library_);
     match_.publish(to_message(match, message.header().frame_id()));
+    if (!match.points.empty() && context_.has_reader(kLandmarkPoints)) {
+      points_.publish(to_point_cloud(match, message.header().frame_id()));
+    }
     if (match.state == MatchState::kMatched) {
       context_.log().info("landmark {} passed, heading {:+.1f} deg relative to the landmark", match.landmark_id,
                           match.heading_rad * 180.0 / M_PI);
@@ -226,6 +232,7 @@ class PositionCorrectorComponent final : public runtime::Component {
   LandmarkMatcher matcher_;
   runtime::Output<panvo_msgs::msg::LandmarkMatch> match_;
   runtime::Output<panvo_msgs::msg::PositionCorrection> correction_;
+  runtime::Output<sensor_msgs::msg::PointCloud2> points_;
 
   conversions::TransformListener transforms_;
   landmarks::EarlyPoses early_poses_;

@@ -68,6 +68,25 @@ TEST(PanoramaPose, IsFoundFromThePointsOfALandmarkSeenElsewhereUnderAnotherHeadi
   EXPECT_GE(result.inliers, 100);
 }
 
+TEST(PanoramaPose, TellsWhichPointsAgreeWithItAndWhereThePanoramaShowsThem) {
+  Place place;
+  for (const std::size_t wrong : {3U, 90U}) {
+    auto& bearing = place.panorama[wrong].bearing;
+    bearing = Eigen::AngleAxisf(0.1F, Eigen::Vector3f::UnitY()) * bearing;
+  }
+  const auto result = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {});
+  ASSERT_TRUE(result.pose) << result.reason;
+  int agreeing = 0;
+  for (const auto& match : result.points) {
+    const Eigen::Vector3d expected = (place.seen_from.inverse() * match.point).normalized();
+    EXPECT_EQ(match.agrees, expected.dot(match.bearing) > std::cos(0.03)) << match.point.transpose();
+    agreeing += match.agrees ? 1 : 0;
+  }
+  EXPECT_EQ(agreeing, result.inliers);
+  EXPECT_EQ(result.points.size(), static_cast<std::size_t>(agreeing) + 2U);
+  EXPECT_TRUE(estimate_panorama_pose({}, place.landmark, 0.0, {}).points.empty());
+}
+
 /// Eight directions all round with `times` points each, with unique descriptors, seen without error.
 std::vector<Keypoint> eight_points(int times) {
   std::mt19937_64 random(5);

@@ -106,6 +106,7 @@ struct LandmarkMatch {
   std::optional<PanoramaPose> pose;       ///< of the panorama relative to the landmark
   std::optional<PanoramaPose> weak_pose;  ///< instead of `pose`: one that needs confirmation
   int inliers = 0;                        ///< of the pose; when rejected, the largest number reached
+  std::vector<PointMatch> points;         ///< what the panorama shows of the landmark's points; not when matched
   std::optional<LandmarkPass> pass;       ///< when matched
 };
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "panvo/landmarks/panoramic_landmark.hpp"
 #include "panvo/vision/pose.hpp"
@@ -60,11 +61,19 @@ struct PanoramaPose {
   double heading_rad = 0.0;  ///< yaw now minus yaw at the landmark, left positive, (-pi, pi]
 };
 
+/// A point of the landmark, and where the panorama shows what was matched with it.
+struct PointMatch {
+  Eigen::Vector3d point = Eigen::Vector3d::UnitZ();    ///< m, frame of the landmark's panorama
+  Eigen::Vector3d bearing = Eigen::Vector3d::UnitZ();  ///< unit, frame of the panorama
+  bool agrees = false;                                 ///< with the pose; false if there is none
+};
+
 struct PanoramaPoseResult {
   std::optional<PanoramaPose> pose;
   std::optional<PanoramaPose> weak_pose;  ///< instead of `pose` when it has few inliers
   int matches = 0;                        ///< keypoints matched with points of the landmark
   int inliers = 0;                        ///< of these, inliers of one pose
+  std::vector<PointMatch> points;         ///< those that agree with the pose first
   std::string reason;                     ///< why there is no pose; else empty
 };
 
