@@ -36,6 +36,17 @@ def sourced(setup, environment):
     return dict(entry.split("=", 1) for entry in done.stdout.decode().split("\0") if entry)
 
 
+def prefix_with_fast_cdr_2(prefix):
+    """A prefix with Fast CDR 2, as that of a sourced ROS 2 is, which must not be used."""
+    package = prefix / "lib/cmake/fastcdr"
+    package.mkdir(parents=True)
+    (package / "fastcdr-config.cmake").write_text('message(FATAL_ERROR "Fast CDR of another version is used")\n', encoding="utf-8")
+    (package / "fastcdr-config-version.cmake").write_text(
+        'set(PACKAGE_VERSION 2.2.5)\n'
+        'if(NOT PACKAGE_FIND_VERSION OR PACKAGE_FIND_VERSION_MAJOR EQUAL 2)\n  set(PACKAGE_VERSION_COMPATIBLE TRUE)\nendif()\n', encoding="utf-8")
+    return prefix
+
+
 class OwnPackage(unittest.TestCase):
     build = None
 
@@ -51,6 +62,8 @@ class OwnPackage(unittest.TestCase):
             prefix = cls.folder / "prefix"
             subprocess.run(["cmake", "--install", cls.build, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
             cls.environment = sourced(prefix / "share/panvo/setup.bash", cls.environment)
+        ros = prefix_with_fast_cdr_2(cls.folder / "ros")
+        cls.environment["CMAKE_PREFIX_PATH"] = f"{ros}:{cls.environment.get('CMAKE_PREFIX_PATH', '')}"
         cls.package = cls.folder / NAME
         cls.run_command("panvo", "new", "component", NAME, "--in", cls.folder)
         own = cls.folder / "own"
