@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -135,7 +136,9 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
       const std::lock_guard lock(seek_mutex_);
       sought_ns_ = time_ns;
     }
-    context_.playback().move_to(time_ns);
+    const auto& metadata = bag_->metadata();
+    const auto end_ns = metadata.start_ns + metadata.duration_ns;
+    context_.playback().move_to(std::clamp(time_ns, metadata.start_ns, end_ns));
     return true;
   }
 

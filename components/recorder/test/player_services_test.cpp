@@ -58,6 +58,7 @@ class PlayerServices : public testing::Test {
         });
     container_.add(test::description("caller"), [this](runtime::Context& context) {
       access_ = context.topic_access();
+      playback_ = &context.playback();
       return std::make_unique<runtime::Component>();
     });
     auto player = test::description("rosbag2_player");
@@ -111,6 +112,7 @@ class PlayerServices : public testing::Test {
   std::vector<int> played_;
   std::vector<std::size_t> transforms_before_;  // index of the odometry that was played next
   std::unique_ptr<runtime::TopicAccess> access_;
+  runtime::Playback* playback_ = nullptr;
   runtime::Container container_{
       runtime::ContainerOptions{.rate = 1, .log = [](runtime::LogLevel, const std::string&, const std::string&) {}}};
   std::thread run_;
@@ -153,6 +155,16 @@ TEST_F(PlayerServices, MoveWhilePausedWithoutPlaying) {
   EXPECT_TRUE(is_paused());
   call<Resume_Response>("resume", Resume_Request());
   EXPECT_THAT(played(1), testing::ElementsAre(1));
+}
+
+/// Viewers show this time, and move the bag from there.
+TEST_F(PlayerServices, TellTheTimeOfAMoveWhilePausedWithinTheBag) {
+  EXPECT_TRUE(seek(start_ns_ + 1000));
+  EXPECT_EQ(playback_->stamp_ns(), start_ns_ + 1000);
+  EXPECT_TRUE(seek(start_ns_ - 5 * kSecond));
+  EXPECT_EQ(playback_->stamp_ns(), start_ns_ - 1000);  // the first message
+  EXPECT_TRUE(seek(start_ns_ + 7200 * kSecond));
+  EXPECT_EQ(playback_->stamp_ns(), start_ns_ + 3600 * kSecond + 2000);  // the last
 }
 
 TEST_F(PlayerServices, SetTheRate) {

@@ -79,6 +79,9 @@ TEST(Pacer, KnowsTheStampThatIsReached) {
   EXPECT_EQ(pacer.stamp_ns(), std::nullopt);
   pacer.reach(8);
   EXPECT_EQ(pacer.stamp_ns(), 8);
+  pacer.pause();
+  pacer.move_to(5);
+  EXPECT_EQ(pacer.stamp_ns(), 5) << "paused, no step tells it";
 }
 
 }  // namespace
