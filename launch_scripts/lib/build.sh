@@ -3,6 +3,7 @@
 # Builds into build/<name> and locates the built programs and plugins.
 
 source "$PANVO_SCRIPTS/lib/packages.sh"
+source "$PANVO_SCRIPTS/lib/arm64.sh"
 
 # cmake_arguments NAME: CMake arguments of a build type; the same as the presets in CMakePresets.json.
 cmake_arguments() {
@@ -14,8 +15,9 @@ cmake_arguments() {
     tsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=thread ;;
     clang) echo -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ ;;
     fuzz) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DPANVO_FUZZ=ON ;;
+    arm64) echo "-DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE=config/build/arm64.cmake -DPANVO_WARNINGS_AS_ERRORS=$([[ -n ${CI:-} ]] && echo ON || echo OFF)" ;;
     package) echo -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_SKIP_INSTALL_RPATH=ON ;;
-    *) fail "unknown build type '$1'; use release, debug, asan, ubsan, tsan, clang, fuzz or package" 2 ;;
+    *) fail "unknown build type '$1'; use release, debug, asan, ubsan, tsan, clang, fuzz, arm64 or package" 2 ;;
   esac
 }
 
@@ -143,6 +145,7 @@ ensure_built() {
   in_checkout || return 0
   ensure_packages build
   [[ $PANVO_BUILD != @(clang|fuzz) ]] || ensure_packages clang
+  [[ $PANVO_BUILD != arm64 ]] || prepare_arm64
   build_targets "$@"
 }
 
@@ -178,6 +181,7 @@ start_program() {
   use_built "$name"
   use_plugins
   path=$(program "$name")
+  [[ $PANVO_BUILD != arm64 ]] || exec_arm64 "$path" "$@"
   exec "$path" "$@"
 }
 

@@ -9,7 +9,7 @@ verb_usage() {
 usage: panvo setup [--check | --list] [GROUP... | --all]
 
 Installs missing Debian packages, with sudo unless run as root. Groups: build (default), python, page (of 'panvo view'), colcon, witness (of the
-tests), lint, clang, package, docs; --all: every group. Other commands, such as demo and test, install the packages that they need.
+tests), lint, clang, package, arm64, docs; --all: every group. Other commands, such as demo and test, install the packages that they need.
 
   --check   install nothing; list the missing packages and fail if there are any
   --list    only print the package names

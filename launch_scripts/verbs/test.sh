@@ -6,7 +6,7 @@ source "$PANVO_SCRIPTS/lib/build.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo test [--sanitize KIND | --debug] [--colcon] [-R REGEX] [ctest argument...]
+usage: panvo test [--sanitize KIND | --debug | --arch ARCH] [--colcon] [-R REGEX] [ctest argument...]
 
 Builds incrementally and runs every test. The last line is "N passed, N failed, N skipped"; the exit status is 0 only if no test
 failed. Tests that need recordings read $PANVO_DATA, or ../shared/data beside the checkout; without either they are skipped,
@@ -14,6 +14,7 @@ and the reason is printed.
 
   --sanitize KIND   address, undefined or thread, in a separate build
   --debug           use the unoptimised build
+  --arch ARCH       arm64: cross-compile and run the tests under qemu's emulation, ten times slower or more
   --colcon          build and test package by package with colcon
   -R REGEX          only tests whose name matches; other ctest arguments (-E, -L, --repeat ...) are passed on as well
 EOT
@@ -31,6 +32,11 @@ verb_main() {
         shift
         ;;
       --debug) PANVO_BUILD=debug ;;
+      --arch)
+        require_value "$@"
+        PANVO_BUILD=$(arch_build "$2")
+        shift
+        ;;
       --colcon) use_colcon=yes ;;
       *) arguments+=("$1") ;;
     esac
@@ -56,7 +62,9 @@ verb_main() {
   # --test-dir keeps the working folder. ctest prints one line per test; --progress updates one line on a terminal.
   local -a progress=()
   [[ ! -t 1 ]] || progress=(--progress)
-  ctest --test-dir "$folder" --parallel "${PANVO_JOBS:-$(nproc)}" --output-on-failure --no-tests=error \
+  local -a ctest=(ctest)
+  [[ $PANVO_BUILD != arm64 ]] || ctest=(with_arm64 ctest)
+  "${ctest[@]}" --test-dir "$folder" --parallel "${PANVO_JOBS:-$(nproc)}" --output-on-failure --no-tests=error \
     --output-junit "$folder/panvo_junit.xml" "${progress[@]}" "${arguments[@]}" || status=$?
   python3 "$PANVO_SCRIPTS/lib/test_report.py" --status "$status" "$folder/panvo_junit.xml"
 }
