@@ -45,11 +45,12 @@ function(_panvo_compile_settings target)
   endif()
   # Without a build type: like Release.
   target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O3> $<$<CONFIG:>:-DNDEBUG>)
-  # -ffp-contract=off: same rounding on every machine, so that replays are bit-identical.
+  # -ffp-contract=off: same rounding on every machine, so that replays are bit-identical. -U__ARM_FEATURE_FMA: without fused operations in Eigen's
+  # code for ARM, too.
   # -Wno-restrict: GCC 12 warns of overlapping strings where there are none (GCC bug 105651).
   # -fno-gnu-unique: an STB_GNU_UNIQUE symbol would keep a plugin in memory after it is unloaded.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
-    -ffp-contract=off
+    -ffp-contract=off $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},aarch64>:-U__ARM_FEATURE_FMA>
     $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique$<SEMICOLON>-Wno-restrict> $<$<BOOL:${PANVO_WARNINGS_AS_ERRORS}>:-Werror>)
   if(PANVO_FUZZ)
     # Without vptr and function, which need type information that the distribution's libraries do not have.

@@ -86,6 +86,11 @@ class Mistakes(unittest.TestCase):
         self.assert_fails(2, "use address, undefined or thread", "build", "--sanitize", "memory")
         self.assert_fails(2, "available: build", "setup", "nothing")
 
+    def test_another_architecture_than_arm64_is_refused(self):
+        for verb in ("build", "test"):
+            self.assert_fails(2, "unknown architecture 'riscv64'; use arm64", verb, "--arch", "riscv64")
+            self.assert_fails(2, "--arch needs a value", verb, "--arch")
+
     def test_an_unknown_system_gets_the_nearest_one(self):
         self.assert_fails(2, "did you mean 'demo'", "run", "demmo")
         self.assert_fails(1, "system file 'some/where.yaml' not found", "run", "some/where.yaml")

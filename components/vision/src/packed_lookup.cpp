@@ -9,18 +9,24 @@
 namespace panvo::vision {
 namespace {
 
+#if !defined(__aarch64__)
 constexpr LookupKernels kGreyPlain{look_up_plain<1>, blend_plain<1>};
 constexpr LookupKernels kColourPlain{look_up_plain<3>, blend_plain<3>};
+#endif
 
 /// Kernels for this processor.
 const LookupKernels& kernels(int channels) {
   if (channels != 1 && channels != 3)
     throw std::invalid_argument("look-up of " + std::to_string(channels) + " channels is not supported; use 1 or 3");
+#if defined(__aarch64__)  // every such processor has NEON
+  return channels == 1 ? kGreyLookupNeon : kColourLookupNeon;
+#else
 #if defined(__x86_64__)
   static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
   if (has_avx2) return channels == 1 ? kGreyLookupAvx2 : kColourLookupAvx2;
 #endif
   return channels == 1 ? kGreyPlain : kColourPlain;
+#endif
 }
 
 }  // namespace

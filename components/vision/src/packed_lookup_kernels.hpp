@@ -5,7 +5,7 @@
 
 #include "panvo/vision/packed_lookup.hpp"
 
-/// Common parts of the plain and the AVX2 look-ups.
+/// Common parts of the plain, the AVX2 and the NEON look-ups.
 namespace panvo::vision {
 
 /// Fraction bits of the interpolation weights (2 * 5) and the factor (8).
@@ -64,6 +64,9 @@ void blend_plain(const LookupSource& first, const std::uint32_t* first_lookups, 
 #if defined(__x86_64__)
 extern const LookupKernels kGreyLookupAvx2;
 extern const LookupKernels kColourLookupAvx2;
+#elif defined(__aarch64__)
+extern const LookupKernels kGreyLookupNeon;
+extern const LookupKernels kColourLookupNeon;
 #endif
 
 }  // namespace panvo::vision

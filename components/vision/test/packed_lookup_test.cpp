@@ -71,14 +71,19 @@ TEST(PackedLookup, BlendsByWeight) {
 }
 
 TEST(PackedLookup, GivesTheSameBytesByAnyInstructionSet) {
+#if defined(__x86_64__) || defined(__aarch64__)
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2") == 0) GTEST_SKIP() << "this processor has no AVX2: nothing to compare";
+  const LookupKernels &grey = kGreyLookupAvx2, &colour = kColourLookupAvx2;
+#else
+  const LookupKernels &grey = kGreyLookupNeon, &colour = kColourLookupNeon;
+#endif
   for (const int channels : {1, 3}) {
     const cv::Mat a = noise(channels, 1), b = noise(channels, 2);
     const auto lookups_a = lookups(3), lookups_b = lookups(4);
     std::vector<std::uint8_t> weights(kCount);
     cv::RNG(5).fill(weights, cv::RNG::UNIFORM, 0, 256);
-    const auto& fast = channels == 1 ? kGreyLookupAvx2 : kColourLookupAvx2;
+    const auto& fast = channels == 1 ? grey : colour;
     const LookupKernels plain = channels == 1 ? LookupKernels{look_up_plain<1>, blend_plain<1>}
                                               : LookupKernels{look_up_plain<3>, blend_plain<3>};
     for (const int factor : {0, 131, kUnitFactor, 300, kMaxFactor}) {
