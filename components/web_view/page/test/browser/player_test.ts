@@ -25,7 +25,8 @@ async function opened(width: number, height: number): Promise<Page> {
   const page = await browser.newPage();
   await page.setViewport({ width, height });
   await page.goto(server.url());
-  await page.waitForFunction(() => document.body.dataset.link === "open");
+  await page.bringToFront(); // a page behind another gets no keys and draws nothing
+  await page.waitForFunction(() => document.body.dataset.link === "open", { polling: 100 });
   return page;
 }
 
@@ -58,7 +59,7 @@ for (const [name, width, height] of [["computer", 1280, 800], ["phone", 390, 844
     await becomes(page, "playing");
     const press = async (key: string, asked: string) => {
       await page.keyboard.press(key as "a");
-      await page.waitForFunction((what) => player.asked.at(-1) === what, {}, asked);
+      await page.waitForFunction((what) => player.asked.at(-1) === what, { polling: 100 }, asked);
     };
     await press("Space", "toggle_paused");
     await becomes(page, "paused");
@@ -72,7 +73,7 @@ for (const [name, width, height] of [["computer", 1280, 800], ["phone", 390, 844
     await page.evaluate(() => (document.activeElement as HTMLElement).blur());
     await press(",", "seek 80"); // before the page was opened
     await page.evaluate(() => panvo.on({ kind: "time", time_s: 85 })); // where the bag begins
-    await page.waitForFunction(() => document.querySelector("#player input")!.getAttribute("aria-valuetext") === "0:00 of 0:35");
+    await page.waitForFunction(() => document.querySelector("#player input")!.getAttribute("aria-valuetext") === "0:00 of 0:35", { polling: 100 });
     const names = await page.$$eval("#player > :not(.state)", (all) => all.map((one) => one.getAttribute("aria-label")));
     assert.deepEqual(names, ["10 s back", "Play", "10 s on", "Position in what was played", "Speed"]);
     const small = await page.$$eval("#player button, #player input, #player select", (all) => all.map((one) => one.getBoundingClientRect()).filter((box) => box.width < 24 || box.height < 24 || box.right > innerWidth).length);
