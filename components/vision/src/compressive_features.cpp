@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "lane_sum.hpp"
+
 namespace panvo::vision {
 namespace {
 
@@ -121,7 +123,7 @@ float ResponseReader::read_gradient(int row, int du, int dv) const {
     response =
         response + sums * (cv::v_load(element.statistics.data()) * cv::v_setall_f32(element.sign * element.share));
   }
-  return cv::v_reduce_sum(response) * per_gradient_;
+  return lane_sum(response) * per_gradient_;
 }
 
 CompressiveFeature ResponseReader::read(int row, int du, int dv) const {
@@ -134,7 +136,7 @@ CompressiveFeature ResponseReader::read(int row, int du, int dv) const {
     gradient = gradient + gradient_sums(cell) *
                               (cv::v_load(element.statistics.data()) * cv::v_setall_f32(element.sign * element.share));
   }
-  return {intensity * per_intensity_, cv::v_reduce_sum(gradient) * per_gradient_};
+  return {intensity * per_intensity_, lane_sum(gradient) * per_gradient_};
 }
 
 }  // namespace panvo::vision

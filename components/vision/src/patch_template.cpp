@@ -8,6 +8,8 @@
 #include <cstring>
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "lane_sum.hpp"
+
 namespace panvo::vision {
 namespace {
 
@@ -124,9 +126,7 @@ PatchTemplate::Projections PatchTemplate::project(const cv::Mat& image, double l
       above[static_cast<size_t>(block)] = across;
     }
   }
-  return {cv::v_reduce_sum(sum),
-          cv::v_reduce_sum(square),
-          {cv::v_reduce_sum(on_basis[0]), cv::v_reduce_sum(on_basis[1]), cv::v_reduce_sum(on_basis[2])}};
+  return {lane_sum(sum), lane_sum(square), {lane_sum(on_basis[0]), lane_sum(on_basis[1]), lane_sum(on_basis[2])}};
 }
 
 std::optional<PatchAlignment> PatchTemplate::align(const cv::Mat& image, const Eigen::Vector2d& start, Search search,
