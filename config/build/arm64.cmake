@@ -27,6 +27,9 @@ string(APPEND CMAKE_EXE_LINKER_FLAGS_INIT " -Wl,-rpath-link,${PANVO_SYSROOT}/usr
 string(APPEND CMAKE_SHARED_LINKER_FLAGS_INIT " -Wl,-rpath-link,${PANVO_SYSROOT}/usr/lib/aarch64-linux-gnu")
 string(APPEND CMAKE_MODULE_LINKER_FLAGS_INIT " -Wl,-rpath-link,${PANVO_SYSROOT}/usr/lib/aarch64-linux-gnu")
 
+# The build folder may be copied to another place on the robot.
+set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)
+
 find_program(PANVO_QEMU NAMES qemu-aarch64 qemu-aarch64-static)
 mark_as_advanced(PANVO_QEMU)
 if(PANVO_QEMU)

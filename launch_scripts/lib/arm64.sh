@@ -38,4 +38,4 @@ exec_arm64() {
 }
 
 # starts_arm64: whether the kernel starts arm64 programs. The loader is one that needs no libraries.
-starts_arm64() { "$QEMU_LD_PREFIX/lib/ld-linux-aarch64.so.1" --version >/dev/null 2>&1; }
+starts_arm64() { [[ $(uname -m) == aarch64 ]] || "$QEMU_LD_PREFIX/lib/ld-linux-aarch64.so.1" --version >/dev/null 2>&1; }
