@@ -51,12 +51,15 @@ class PostgresStore final : public StoreBackend {
       };
     }
     const auto newest = store_migrations();
-    if (settings) {
-      told([&] { migrate(open(), name_, newest); });
-      transact([&] { prepare(*settings); });
-    } else {
-      told([&] { check_layout(open(), name_, static_cast<int>(newest.size())); });
-    }
+    open();  // must succeed at once: the location may be wrong
+    repeated([&] {
+      auto& connection = open();
+      told([&] {
+        if (settings) migrate(connection, name_, newest);
+        else check_layout(connection, name_, static_cast<int>(newest.size()));
+      });
+    });
+    if (settings) transact([&] { prepare(*settings); });
   }
 
   void transact(const std::function<void()>& action) override {
@@ -254,8 +257,7 @@ class PostgresStore final : public StoreBackend {
     }
   }
 
-  /// Runs `action` again after a lost connection or a conflict, as long as the patience lasts. The first connection must
-  /// succeed at once.
+  /// Runs `action` again after a lost connection or a conflict, as long as the patience lasts.
   template <class Action>
   std::invoke_result_t<Action> repeated(Action action) const {
     for (int attempt = 0;; ++attempt) {

@@ -195,10 +195,14 @@ TEST_F(ServerStore, GoesOnAfterItsSessionWasKilled) {
 }
 
 TEST_F(ServerStore, AddsEachLandmarkOnceWhileSessionsAreKilled) {
+  auto store = opened();  // the first connection is not repeated
   std::atomic<bool> has_ended = false;
   std::thread robot([&] {
-    auto store = opened();
-    for (std::uint32_t id = 1; id <= 60; ++id) EXPECT_EQ(store.add(made_up_landmark(id)), id);
+    try {
+      for (std::uint32_t id = 1; id <= 60; ++id) EXPECT_EQ(store.add(made_up_landmark(id)), id);
+    } catch (const StoreError& error) {
+      ADD_FAILURE() << error.what();
+    }
     has_ended = true;
   });
   int kills = 0;
@@ -224,15 +228,27 @@ TEST_F(ServerStore, AddsALandmarkOnceIfTheAnswerToItsCommitIsLost) {
                                    : "ALTER SYSTEM RESET synchronous_standby_names");
     server_->sql("postgres", "SELECT pg_reload_conf()");
   };
+  const auto is_waiting = [&](const std::string& database) {
+    return server_->sql("postgres",
+                        "SELECT count(*) FROM pg_stat_activity WHERE wait_event = 'SyncRep' AND datname = '" +
+                            database + "'") == "1";
+  };
   wait_for_standby(true);
+  // The server takes the setting over after a while: when the first commit of this thread waits.
+  std::atomic<bool> is_set = false;
+  std::thread trial([&] {
+    postgres::Connection connection(server_->location("postgres"), {.connect_s = 5, .answer_s = 60});
+    while (!is_set) connection.query("SELECT pg_current_xact_id()");
+  });
+  EXPECT_TRUE(becomes_true([&] { return is_waiting("postgres"); }));
+  is_set = true;
   std::uint32_t id = 0;
   std::thread robot([&] { id = store.add(landmark); });
-  const auto waiting =
-      "SELECT count(*) FROM pg_stat_activity WHERE wait_event = 'SyncRep' AND datname = '" + database_ + "'";
-  EXPECT_TRUE(becomes_true([&] { return server_->sql("postgres", waiting) == "1"; }));
+  EXPECT_TRUE(becomes_true([&] { return is_waiting(database_); }));
   kill_sessions();
   wait_for_standby(false);
   robot.join();
+  trial.join();
   EXPECT_EQ(id, 2U);
   expect_whole(2);
 }
