@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 
 #include "panvo/binocular_odometry/base_motion.hpp"
+#include "panvo/conversions/point_cloud.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/vision/pose.hpp"
@@ -18,7 +18,7 @@ using vision::Vector6d;
 
 namespace {
 
-/// Layout of the points in a PointCloud2. Without padding, whose bytes would differ between replays.
+/// Layout of the points in a PointCloud2.
 struct PackedPoint {
   float x, y, z, u, v;
   std::uint32_t track;  // the low bits of the id
@@ -26,26 +26,6 @@ struct PackedPoint {
   std::array<std::uint8_t, 3> unused;
 };
 static_assert(sizeof(PackedPoint) == 28);
-
-std::vector<sensor_msgs::msg::PointField> point_fields() {
-  namespace types = sensor_msgs::msg::PointField_Constants;
-  std::vector<sensor_msgs::msg::PointField> fields;
-  const auto add = [&](const char* name, std::size_t offset, std::uint8_t datatype) {
-    auto& field = fields.emplace_back();
-    field.name(name);
-    field.offset(static_cast<std::uint32_t>(offset));
-    field.datatype(datatype);
-    field.count(1);
-  };
-  add("x", offsetof(PackedPoint, x), types::FLOAT32);
-  add("y", offsetof(PackedPoint, y), types::FLOAT32);
-  add("z", offsetof(PackedPoint, z), types::FLOAT32);
-  add("u", offsetof(PackedPoint, u), types::FLOAT32);
-  add("v", offsetof(PackedPoint, v), types::FLOAT32);
-  add("track", offsetof(PackedPoint, track), types::UINT32);
-  add("state", offsetof(PackedPoint, state), types::UINT8);
-  return fields;
-}
 
 PackedPoint pack(const ScenePoint& point, const Eigen::Isometry3d& base_from_left) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -117,23 +97,20 @@ tf2_msgs::msg::TFMessage to_transform(const nav_msgs::msg::Odometry& odometry) {
 sensor_msgs::msg::PointCloud2 to_point_cloud(const std::vector<ScenePoint>& points,
                                              const Eigen::Isometry3d& base_from_left, std::int64_t stamp_ns,
                                              const std::string& odom_frame) {
-  sensor_msgs::msg::PointCloud2 cloud;
-  cloud.header().stamp(conversions::to_stamp(stamp_ns));
-  cloud.header().frame_id(odom_frame);
-  cloud.fields(point_fields());
-  cloud.height(1);
-  cloud.width(static_cast<std::uint32_t>(points.size()));
-  cloud.point_step(sizeof(PackedPoint));
-  cloud.row_step(cloud.point_step() * cloud.width());
-  cloud.data().resize(cloud.row_step());
-  cloud.is_dense(std::ranges::all_of(points, [](const ScenePoint& point) { return point.in_odom.has_value(); }));
-  std::uint8_t* place = cloud.data().data();
-  for (const ScenePoint& point : points) {
-    const PackedPoint packed = pack(point, base_from_left);
-    std::memcpy(place, &packed, sizeof packed);
-    place += sizeof packed;
-  }
-  return cloud;
+  namespace types = sensor_msgs::msg::PointField_Constants;
+  std::vector<PackedPoint> packed;
+  packed.reserve(points.size());
+  for (const ScenePoint& point : points) packed.push_back(pack(point, base_from_left));
+  const bool is_dense = std::ranges::all_of(points, [](const ScenePoint& point) { return point.in_odom.has_value(); });
+  return conversions::to_point_cloud(stamp_ns, odom_frame,
+                                     {{"x", offsetof(PackedPoint, x), types::FLOAT32},
+                                      {"y", offsetof(PackedPoint, y), types::FLOAT32},
+                                      {"z", offsetof(PackedPoint, z), types::FLOAT32},
+                                      {"u", offsetof(PackedPoint, u), types::FLOAT32},
+                                      {"v", offsetof(PackedPoint, v), types::FLOAT32},
+                                      {"track", offsetof(PackedPoint, track), types::UINT32},
+                                      {"state", offsetof(PackedPoint, state), types::UINT8}},
+                                     packed, is_dense);
 }
 
 panvo_msgs::msg::OdometryQuality to_quality(const OdometryEstimate& estimate, const std::string& base_frame) {

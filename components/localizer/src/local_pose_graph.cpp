@@ -50,7 +50,7 @@ void LocalPoseGraph::add_built(std::uint32_t id, std::int64_t panorama_ns, const
   Node node;
   node.landmark_id = id;
   node.at = at;
-  node.panorama_ns = panorama_ns;
+  node.sighting.stamp_ns = panorama_ns;
   const auto here = carried(at.pose);
   node.map_from_base = here.map_from_base;
   node.covariance = here.covariance;
@@ -71,7 +71,6 @@ bool LocalPoseGraph::add_pass(const LandmarkSighting& sighting, const OdometrySa
   node.landmark_id = sighting.landmark_id;
   node.is_pass = true;
   node.at = at;
-  node.panorama_ns = sighting.stamp_ns;
   node.sighting = sighting;
   const auto here = carried(at.pose);
   node.map_from_base = here.map_from_base;
@@ -184,7 +183,7 @@ void LocalPoseGraph::refresh(const OdometryBuffer& chain, std::int64_t since_ns)
 void LocalPoseGraph::set_clock(const OdometryBuffer& chain, std::int64_t ahead_ns) {
   for (auto& node : nodes_) {
     if (node.landmark_id == 0 || node.is_of_earlier_day) continue;
-    const auto at = chain.at(node.panorama_ns - ahead_ns);
+    const auto at = chain.at(node.sighting.stamp_ns - ahead_ns);
     if (!at) continue;
     node.map_from_base = node.map_from_base * (node.at.pose.odom_from_base.inverse() * at->pose.odom_from_base);
     node.at = *at;
@@ -195,7 +194,6 @@ void LocalPoseGraph::set_clock_back(std::int64_t by_ns) {
   for (auto& node : nodes_) {
     if (node.is_of_earlier_day) continue;
     node.at.pose.stamp_ns -= by_ns;
-    node.panorama_ns -= by_ns;
     node.sighting.stamp_ns -= by_ns;
   }
   for (auto& cut_ns : cuts_ns_) cut_ns -= by_ns;

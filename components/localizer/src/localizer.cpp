@@ -131,6 +131,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
   clock_search_ = {};
+  clock_doubt_.end();
   clock_found_ns_ = INT64_MIN;
   graph_.set_clock_back(by_ns);
   for (auto* stamp_ns : {&unreliable_since_ns_, &doubtful_ns_, &azimuth_ns_}) {

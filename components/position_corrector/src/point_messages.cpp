@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/position_corrector/point_messages.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
 
-#include "panvo/conversions/time.hpp"
+#include "panvo/conversions/point_cloud.hpp"
 
 namespace panvo::position_corrector {
 namespace {
 
-/// Layout of the points in a PointCloud2. Without padding, whose bytes would differ between replays.
+/// Layout of the points in a PointCloud2.
 struct PackedMatch {
   float x, y, z, u, v, place_u, place_v;
   std::uint32_t landmark;
@@ -27,28 +25,6 @@ struct PackedMatch {
 static_assert(sizeof(PackedMatch) == 36);
 
 constexpr std::uint8_t kAgrees = 1, kContradicts = 2;
-
-std::vector<sensor_msgs::msg::PointField> match_fields() {
-  namespace types = sensor_msgs::msg::PointField_Constants;
-  std::vector<sensor_msgs::msg::PointField> fields;
-  const auto add = [&](const char* name, std::size_t offset, std::uint8_t datatype) {
-    auto& field = fields.emplace_back();
-    field.name(name);
-    field.offset(static_cast<std::uint32_t>(offset));
-    field.datatype(datatype);
-    field.count(1);
-  };
-  add("x", offsetof(PackedMatch, x), types::FLOAT32);
-  add("y", offsetof(PackedMatch, y), types::FLOAT32);
-  add("z", offsetof(PackedMatch, z), types::FLOAT32);
-  add("u", offsetof(PackedMatch, u), types::FLOAT32);
-  add("v", offsetof(PackedMatch, v), types::FLOAT32);
-  add("place_u", offsetof(PackedMatch, place_u), types::FLOAT32);
-  add("place_v", offsetof(PackedMatch, place_v), types::FLOAT32);
-  add("landmark", offsetof(PackedMatch, landmark), types::UINT32);
-  add("state", offsetof(PackedMatch, state), types::UINT8);
-  return fields;
-}
 
 /// Fraction of the height of a panorama at which a direction is seen; see vision::Equirectangular.
 float row_of(const Eigen::Vector3d& direction) {
@@ -83,23 +59,21 @@ PackedMatch pack(const PointMatch& match, const std::optional<PanoramaPose>& pos
 
 sensor_msgs::msg::PointCloud2 to_point_cloud(const LandmarkMatch& match, const std::string& panorama_frame) {
   const auto& pose = match.pose ? match.pose : match.weak_pose;
-  sensor_msgs::msg::PointCloud2 cloud;
-  cloud.header().stamp(conversions::to_stamp(match.stamp_ns));
-  cloud.header().frame_id(panorama_frame);
-  cloud.fields(match_fields());
-  cloud.height(1);
-  cloud.width(static_cast<std::uint32_t>(match.points.size()));
-  cloud.point_step(sizeof(PackedMatch));
-  cloud.row_step(cloud.point_step() * cloud.width());
-  cloud.data().resize(cloud.row_step());
-  cloud.is_dense(pose.has_value());
-  std::uint8_t* place = cloud.data().data();
-  for (const auto& point : match.points) {
-    const PackedMatch packed = pack(point, pose, match.landmark_id);
-    std::memcpy(place, &packed, sizeof packed);
-    place += sizeof packed;
-  }
-  return cloud;
+  namespace types = sensor_msgs::msg::PointField_Constants;
+  std::vector<PackedMatch> packed;
+  packed.reserve(match.points.size());
+  for (const auto& point : match.points) packed.push_back(pack(point, pose, match.landmark_id));
+  return conversions::to_point_cloud(match.stamp_ns, panorama_frame,
+                                     {{"x", offsetof(PackedMatch, x), types::FLOAT32},
+                                      {"y", offsetof(PackedMatch, y), types::FLOAT32},
+                                      {"z", offsetof(PackedMatch, z), types::FLOAT32},
+                                      {"u", offsetof(PackedMatch, u), types::FLOAT32},
+                                      {"v", offsetof(PackedMatch, v), types::FLOAT32},
+                                      {"place_u", offsetof(PackedMatch, place_u), types::FLOAT32},
+                                      {"place_v", offsetof(PackedMatch, place_v), types::FLOAT32},
+                                      {"landmark", offsetof(PackedMatch, landmark), types::UINT32},
+                                      {"state", offsetof(PackedMatch, state), types::UINT8}},
+                                     packed, pose.has_value());
 }
 
 }  // namespace panvo::position_corrector

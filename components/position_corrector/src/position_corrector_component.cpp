@@ -77,9 +77,9 @@ struct ComponentParameters {
   }
 };
 
-/// panorama/image, odometry/binocular, landmarks, landmarks/poses, /tf_static -> landmarks/match for each panorama,
-/// with the reason if there is no match; correction for each panorama that locks a landmark or that geometry rejects;
-/// landmarks/match_points with what such a panorama shows of the landmark, for readers.
+/// panorama/image, odometry/binocular, landmarks, landmarks/poses, /tf_static -> landmarks/match, correction,
+/// landmarks/match_points. Each panorama gets a match message, which states the reason if nothing matched. A correction
+/// follows if a landmark was locked or rejected by geometry, with the matched points if anybody reads them.
 class PositionCorrectorComponent final : public runtime::Component {
  public:
   explicit PositionCorrectorComponent(runtime::Context& context)

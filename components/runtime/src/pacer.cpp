@@ -70,7 +70,7 @@ void Pacer::move_to(std::int64_t stamp_ns) {
     state_.stamp_ns = stamp_ns;
     state_.since_ns = clocks::monotonic_ns();
     ++state_.version;
-    reached_ns_ = stamp_ns;  // paused, there is no step that would tell
+    reached_ns_ = stamp_ns;  // while paused, no step updates it
   }
   tell(true);
 }

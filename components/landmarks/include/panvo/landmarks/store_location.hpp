@@ -28,7 +28,7 @@ class StoreLocation {
 struct StorePatience {
   int connect_s = 5;  ///< to connect; a connect_timeout in the location prevails
   int answer_s = 10;  ///< for an answer, and for other writers
-  /// Waits before a lost connection is made anew, and returns whether to do so. `attempt` counts from 0 in each call of
+  /// Waits before reconnecting; returns false to give up. `attempt` counts from 0 in each call of
   /// the store. Empty: four attempts within 4 s, not counting the waits above.
   std::function<bool(int attempt, const std::string& problem)> pause;
 };

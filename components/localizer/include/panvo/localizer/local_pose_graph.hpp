@@ -122,8 +122,7 @@ class LocalPoseGraph {
     bool is_pass = false;            ///< passed
     bool is_of_earlier_day = false;  ///< not on this journey's path
     OdometrySample at;               ///< odometry at that moment
-    std::int64_t panorama_ns = 0;    ///< stamp of the panorama, if there is one
-    LandmarkSighting sighting;       ///< of a pass
+    LandmarkSighting sighting;       ///< of a pass; of a built landmark only the stamp of its panorama
     std::optional<PoseInMap> said;   ///< external pose
     std::optional<GnssFix> fix;
     Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();

@@ -71,7 +71,7 @@ export class Link {
     this.#batch = [];
   }
 
-  /** The time of the recording, if it was told anew since the last call. */
+  /** The recording's time, if the server has sent one since the last call. */
   tellTime(): void {
     if (this.#time_s !== undefined) this.surroundings.emit({ kind: "time", time_s: this.#time_s });
     this.#time_s = undefined;

@@ -18,7 +18,7 @@ export class PlayerPanel {
   isPaused = false;
   rate = 1;
   #time_s: number | undefined; // of the recording
-  #first_s = Infinity; // times that were told, which the slider spans
+  #first_s = Infinity; // range of the times received, which the slider spans
   #last_s = -Infinity;
   #told_s: number | undefined; // the newest
   #asked_s: number | undefined; // the bag is being moved there
@@ -105,7 +105,7 @@ export class PlayerPanel {
     if (this.#node === undefined) return;
     this.#moved_ms = performance.now();
     this.#told_s = undefined;
-    setTimeout(() => (this.time_s = this.#told_s), settled_ms + 1); // paused, it is told only once
+    setTimeout(() => (this.time_s = this.#told_s), settled_ms + 1); // while paused, the server sends its time only once
     this.#time_s = this.#asked_s = to; // so that the next jump starts there
     this.#first_s = Math.min(this.#first_s, to);
     this.#last_s = Math.max(this.#last_s, to);

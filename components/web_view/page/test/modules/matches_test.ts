@@ -15,7 +15,7 @@ test("matched points are read by the names of their fields", () => {
   assert.equal(matches.points[1]!.agrees, false);
 });
 
-test("clouds without these fields, without points, or cut off are no matches", () => {
+test("a cloud that lacks a field, is empty or is truncated gives no matches", () => {
   assert.equal(matchesOf(pointCloud(1, [{ u: 1, v: 1, track: 1, state: 1 }]) as PointCloud), undefined);
   assert.equal(matchesOf(matchCloud(1, 7, [])), undefined);
   const cut = matchCloud(1, 7, [1, 1].map((state) => ({ u: 0, v: 0, place_u: 0, place_v: 0, state })));
