@@ -7,7 +7,7 @@
 
 #include "all_round_messages.hpp"
 #include "panvo/all_round_odometry/all_round_odometry.hpp"
-#include "panvo/conversions/odometry_join.hpp"
+#include "panvo/conversions/odometry_listener.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
@@ -28,16 +28,8 @@ class AllRoundOdometryComponent final : public runtime::Component {
         odometry_output_(context.output(topics::kOdometryAllRound)),
         quality_output_(context.output(topics::kOdometryAllRoundQuality)) {
     odometry_.emplace(parameters_, base_from_camera_);
-    context.input(topics::kOdometryQuality, [this](const auto& message) {
-      join_.add(*message);
-      take_joined();
-    });
-    context.input(topics::kOdometryBinocular, [this](const auto& message) {
-      join_.add(message, context_.passing_ns());
-      take_joined();
-    });
+    stereo_input_.emplace(context, [this](const auto& joined) { on_stereo(joined); });
     context.input(topics::kPanoramaPoints, [this](const auto& message) { on_points(*message); });
-    context.every(std::chrono::milliseconds(100), [this] { take_joined(); });
   }
 
  private:
@@ -45,11 +37,6 @@ class AllRoundOdometryComponent final : public runtime::Component {
   static constexpr std::size_t kMaxWaiting = 100;
   static constexpr double kSilence_s = 0.3, kSilent = 3.0;    // at least, and in intervals
   static constexpr double kMean = 0.1, kMaxInterval_s = 2.0;  // weight of an interval in the usual one
-
-  void take_joined() {
-    const bool is_quality_published = join_.has_quality() || context_.has_publisher(topics::kOdometryQuality);
-    while (const auto next = join_.next(context_.passing_ns(), is_quality_published)) on_stereo(*next);
-  }
 
   void on_stereo(const conversions::OdometryJoin::Joined& joined) {
     const auto pose = conversions::to_isometry(joined.odometry->pose().pose());
@@ -148,7 +135,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::OdometryQuality> quality_output_;
   Eigen::Vector3d base_from_camera_ = Eigen::Vector3d::Zero();
   std::optional<AllRoundOdometry> odometry_;
-  conversions::OdometryJoin join_;
+  std::optional<conversions::OdometryListener> stereo_input_;
   std::map<std::int64_t, conversions::OdometryJoin::Joined> stereo_;  // by stamp, of poses that are not published yet
   std::shared_ptr<const nav_msgs::msg::Odometry> last_;
   std::int64_t stereo_at_ns_ = 0;  // arrival

@@ -15,7 +15,7 @@
 #include "last_pose_keeper.hpp"
 #include "localizer_messages.hpp"
 #include "panorama_queue.hpp"
-#include "panvo/conversions/odometry_join.hpp"
+#include "panvo/conversions/odometry_listener.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
@@ -54,14 +54,7 @@ class LocalizerComponent final : public runtime::Component {
         panorama_time_(context.output(topics::kPanoramaTimeReference)),
         path_binocular_output_(context.output(topics::kPathBinocular)),
         path_enhanced_output_(context.output(topics::kPathEnhanced)) {
-    context.input(topics::kOdometryQuality, [this](const auto& message) {
-      join_.add(*message);
-      take_joined();
-    });
-    context.input(topics::kOdometryBinocular, [this](const auto& message) {
-      join_.add(message, context_.passing_ns());
-      take_joined();
-    });
+    odometry_input_.emplace(context, [this](const auto& joined) { on_odometry(joined); });
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kAzimuthChange, [this](const auto& message) { on_azimuth(*message); });
     context.input(topics::kCorrection, [this](const auto& message) { on_correction(*message); });
@@ -75,19 +68,6 @@ class LocalizerComponent final : public runtime::Component {
   static constexpr std::int64_t kNotableOffset_ns = 20'000'000;  // a vehicle moves a few centimetres in that time
   static constexpr double kNoPanorama_s = 10.0;
   static constexpr double kUnlocatedFor_m = 500.0;  // by then a mapped place should have been passed
-
-  void take_joined() {
-    while (const auto next = join_.next(context_.passing_ns(), is_quality_published())) {
-      if (next->lacks_quality) {
-        context_.log().warn_throttled("no quality", "{} has no {} with the same stamp: only its covariance is used",
-                                      context_.resolved_name(topics::kOdometryBinocular),
-                                      context_.resolved_name(topics::kOdometryQuality));
-      }
-      on_odometry(*next);
-    }
-  }
-
-  bool is_quality_published() const { return join_.has_quality() || context_.has_publisher(topics::kOdometryQuality); }
 
   /// The odometry's clock was set back: shifts all stored stamps.
   void set_clock_back(std::int64_t back_ns) {
@@ -324,7 +304,6 @@ class LocalizerComponent final : public runtime::Component {
 
   /// Runs whether or not messages arrive.
   void on_tick() {
-    take_joined();
     const double silence_s = begin_ns_ ? vision::seconds(odometry_at_ns_, context_.passing_ns()) : 0.0;
     publisher_.tick(localizer_, silence_s, context_.now_ns());
   }
@@ -335,7 +314,7 @@ class LocalizerComponent final : public runtime::Component {
   Localizer localizer_;
   LastPoseKeeper last_pose_;
   AlignmentNotices notices_;
-  conversions::OdometryJoin join_;
+  std::optional<conversions::OdometryListener> odometry_input_;
   SetBack set_back_;
   PathRecord path_binocular_, path_enhanced_;
   PosePublisher publisher_;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fusion_messages.hpp"
-#include "panvo/conversions/odometry_join.hpp"
+#include "panvo/conversions/odometry_listener.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/sensor_mount.hpp"
 #include "panvo/conversions/stage_timer.hpp"
@@ -37,14 +37,7 @@ class OdometryFusionComponent final : public runtime::Component {
         gyro_notices_(context.log()),
         wheel_notices_(context.log()),
         yaw_notices_(context.log()) {
-    context.input(topics::kOdometryQuality, [this](const auto& message) {
-      join_.add(*message);
-      take_joined();
-    });
-    context.input(topics::kOdometryBinocular, [this](const auto& message) {
-      join_.add(message, context_.passing_ns());
-      take_joined();
-    });
+    stereo_input_.emplace(context, [this](const auto& joined) { on_stereo(joined); });
     context.input(topics::kImu, [this](const auto& message) { on_imu(*message); });
     context.input(topics::kWheelOdometry, [this](const auto& message) {
       on_wheels(topics::kWheelOdometry.name, message->child_frame_id(), conversions::stamp_ns(*message),
@@ -55,18 +48,12 @@ class OdometryFusionComponent final : public runtime::Component {
                 message->twist());
     });
     context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_enhanced(message); });
-    context.every(std::chrono::milliseconds(100), [this] { take_joined(); });
     context.on_end([this] { say_what_was_learned(); });
   }
 
  private:
   static constexpr int kMaxRefused = 5;  // consecutive stereo poses, after which their clock counts as set back
   static constexpr std::size_t kMaxShares = 100;
-
-  void take_joined() {
-    const bool is_quality_published = join_.has_quality() || context_.has_publisher(topics::kOdometryQuality);
-    while (const auto next = join_.next(context_.passing_ns(), is_quality_published)) on_stereo(*next);
-  }
 
   void on_stereo(const conversions::OdometryJoin::Joined& joined) {
     const auto pose = conversions::to_isometry(joined.odometry->pose().pose());
@@ -194,7 +181,7 @@ class OdometryFusionComponent final : public runtime::Component {
   std::shared_ptr<const nav_msgs::msg::Odometry> enhanced_;  // of which map_anchor_ is
   std::int64_t predicted_ns_ = INT64_MIN;                    // stamp of the last prediction
   SensorNotices gyro_notices_, wheel_notices_, yaw_notices_;
-  conversions::OdometryJoin join_;
+  std::optional<conversions::OdometryListener> stereo_input_;
   conversions::SensorMount imu_, wheels_;
   std::string_view wheel_topic_ = topics::kWheelOdometry.name;  // of the first message
   std::shared_ptr<const nav_msgs::msg::Odometry> last_stereo_;
