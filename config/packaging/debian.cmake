@@ -17,8 +17,8 @@ set(section_panvo-simulation science)
 set(section_libpanvo-dev libdevel)
 set(depends_panvo "python3, systemd-standalone-sysusers | systemd-sysusers")
 set(depends_panvo-simulation "panvo ${same_version}")
-set(depends_libpanvo-dev "panvo ${same_version}, panvo-simulation ${same_version}, cmake, fastddsgen, libceres-dev, libcli11-dev, libeigen3-dev, \
-libfastrtps-dev, libfmt-dev, libopencv-dev, libsqlite3-dev, libspdlog-dev, python3")
+set(depends_libpanvo-dev "panvo ${same_version}, panvo-simulation ${same_version}, cmake, libceres-dev, libcli11-dev, libeigen3-dev, \
+libfmt-dev, libopencv-dev, libsqlite3-dev, libspdlog-dev, python3")
 set(recommends_panvo "gnuplot-nox, python3-numpy")
 set(suggests_panvo "openssl, panvo-simulation")
 

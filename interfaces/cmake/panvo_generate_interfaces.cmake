@@ -20,7 +20,6 @@ function(panvo_generate_interfaces package)
     message(FATAL_ERROR "panvo_generate_interfaces(${package}): a package name starts with a letter and has only lower-case letters, digits and '_'")
   endif()
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  find_program(FASTDDSGEN fastddsgen REQUIRED)
   set(files "")
   foreach(file IN LISTS arg_UNPARSED_ARGUMENTS)
     cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
@@ -49,7 +48,6 @@ function(panvo_generate_interfaces package)
   set(needed ${CMAKE_MATCH_1})
   set(names ${CMAKE_MATCH_2})
   list(TRANSFORM names REPLACE "(.+)" "${generated}/\\1.h" OUTPUT_VARIABLE headers)
-  list(TRANSFORM names REPLACE "(.+)" "${generated}/\\1.cxx" OUTPUT_VARIABLE classes)
   set(linked "")
   foreach(other IN LISTS needed)
     if(TARGET panvo::${other})  # otherwise the package is in the library panvo_interfaces
@@ -63,15 +61,15 @@ function(panvo_generate_interfaces package)
   # make and ninja compare the stamp file. Generated files with unchanged content keep their time stamp and are not recompiled.
   add_custom_command(
     OUTPUT ${generated}/stamp
-    BYPRODUCTS ${generated}/message_table.cpp ${classes} ${headers}
-    COMMAND ${generate} ${rules} --fastddsgen ${FASTDDSGEN} ${files}
+    BYPRODUCTS ${generated}/message_table.cpp ${headers}
+    COMMAND ${generate} ${rules} ${files}
     COMMAND ${CMAKE_COMMAND} -E touch ${generated}/stamp
     DEPENDS ${files} ${known_files} ${generator}
     COMMENT "Generating message classes of ${package}"
     VERBATIM)
   add_custom_target(${package}_generate DEPENDS ${generated}/stamp)
 
-  panvo_add_library(${package} SOURCES ${generated}/message_table.cpp ${classes} ${arg_SOURCES} LINK panvo::interfaces ${linked})
+  panvo_add_library(${package} SOURCES ${generated}/message_table.cpp ${arg_SOURCES} LINK panvo::interfaces ${linked})
   add_dependencies(${package} ${package}_generate)
   target_include_directories(${package} PUBLIC $<BUILD_INTERFACE:${generated}>)
   target_link_options(${package} PRIVATE -Wl,-z,nodelete)  # references to its types stay valid
@@ -81,10 +79,9 @@ function(panvo_generate_interfaces package)
   set_target_properties(${package} PROPERTIES
     OUTPUT_NAME ${package}__panvo
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_plugins
-    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    UNITY_BUILD OFF)
   set_property(TARGET ${package} PROPERTY VERSION)  # loaded by name at run time
   set_property(TARGET ${package} PROPERTY SOVERSION)
-  set_source_files_properties(${generated}/message_table.cpp ${arg_SOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set_property(GLOBAL APPEND PROPERTY PANVO_IDL ${generated}/idl)
   if(arg_NO_INSTALL)
     return()

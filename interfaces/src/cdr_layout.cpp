@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cdr_layout.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -11,12 +10,11 @@
 namespace panvo::interfaces {
 namespace {
 
-/// Walks over the bytes of a message member by member. Calls on_gap(begin, end) for each run of alignment padding.
-template <class OnGap>
+/// Walks over the bytes of a message member by member.
 class Walk {
  public:
-  Walk(std::string_view type_name, std::span<const std::uint8_t> payload, std::endian order, OnGap on_gap)
-      : type_name_(type_name), payload_(payload), order_(order), on_gap_(on_gap) {}
+  Walk(std::string_view type_name, std::span<const std::uint8_t> payload, std::endian order)
+      : type_name_(type_name), payload_(payload), order_(order) {}
 
   void message(const CdrLayout& layout) {
     for (const CdrField& field : layout.fields) {
@@ -53,13 +51,7 @@ class Walk {
     return order_ == std::endian::native ? value : __builtin_bswap32(value);
   }
 
-  void align(const CdrField& field, std::size_t size) {
-    const std::size_t gap = (size - position_ % size) % size;
-    if (gap > 0) {
-      skip(field, gap);
-      on_gap_(position_ - gap, position_);
-    }
-  }
+  void align(const CdrField& field, std::size_t size) { skip(field, (size - position_ % size) % size); }
 
   void skip(const CdrField& field, std::uint64_t bytes) {
     if (bytes > payload_.size() - position_) {
@@ -73,7 +65,6 @@ class Walk {
   std::string_view type_name_;
   std::span<const std::uint8_t> payload_;
   std::endian order_;
-  OnGap on_gap_;
   std::size_t position_ = 0;
 };
 
@@ -81,14 +72,7 @@ class Walk {
 
 void check_cdr(std::string_view type_name, const CdrLayout& layout, std::span<const std::uint8_t> payload,
                std::endian order) {
-  Walk(type_name, payload, order, [](std::size_t, std::size_t) {}).message(layout);
-}
-
-void clear_padding(std::string_view type_name, const CdrLayout& layout, std::span<std::uint8_t> payload) {
-  Walk(type_name, payload, std::endian::little, [payload](std::size_t begin, std::size_t end) {
-    std::fill(payload.begin() + static_cast<std::ptrdiff_t>(begin), payload.begin() + static_cast<std::ptrdiff_t>(end),
-              std::uint8_t{0});
-  }).message(layout);
+  Walk(type_name, payload, order).message(layout);
 }
 
 Payload checked_payload(const MessageType& type, std::span<const std::uint8_t> bytes) {

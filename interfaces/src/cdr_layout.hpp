@@ -16,8 +16,4 @@ namespace panvo::interfaces {
 void check_cdr(std::string_view type_name, const CdrLayout& layout, std::span<const std::uint8_t> payload,
                std::endian order);
 
-/// Zeroes the padding between the members of a little-endian payload. The encoder skips it, so that old memory content
-/// would be sent and equal messages would differ. Throws DecodeError as check_cdr.
-void clear_padding(std::string_view type_name, const CdrLayout& layout, std::span<std::uint8_t> payload);
-
 }  // namespace panvo::interfaces

@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/interfaces/message_codec.hpp"
 
-#include <algorithm>
 #include <string>
-
-#include <fastcdr/Cdr.h>
-#include <fastcdr/exceptions/Exception.h>
 
 #include "cdr_layout.hpp"
 
 namespace panvo::interfaces {
 
-using eprosima::fastcdr::Cdr;
-using eprosima::fastcdr::FastBuffer;
-
 void encode(const CdrType& type, const void* message, std::span<std::uint8_t> out) {
-  FastBuffer buffer(reinterpret_cast<char*>(out.data()), out.size());
-  Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
-  cdr.serialize_encapsulation();
-  type.write(message, cdr);
-  // Fast CDR sends a string up to its first NUL, so it may write less than the computed size.
-  std::fill(out.begin() + static_cast<std::ptrdiff_t>(cdr.getSerializedDataLength()), out.end(), std::uint8_t{0});
-  clear_padding(type.name, *type.layout, out.subspan(kEncapsulationSize));
+  constexpr std::uint8_t kLittleEndian[kEncapsulationSize] = {0, 1, 0, 0};
+  CdrWriter(out).numbers(kLittleEndian, kEncapsulationSize);
+  CdrWriter writer(out.subspan(kEncapsulationSize));
+  type.write(message, writer);
+  writer.finish();
 }
 
 std::endian check_encapsulation(std::string_view type_name, std::span<const std::uint8_t> bytes) {
@@ -40,13 +31,10 @@ std::endian check_encapsulation(std::string_view type_name, std::span<const std:
 void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* message) {
   const auto order = check_encapsulation(type.name, bytes);
   check_cdr(type.name, *type.layout, bytes.subspan(kEncapsulationSize), order);
-  // Fast CDR takes a pointer to non-const for reading too.
-  FastBuffer buffer(const_cast<char*>(reinterpret_cast<const char*>(bytes.data())), bytes.size());
-  Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+  CdrReader reader(bytes.subspan(kEncapsulationSize), order);
   try {
-    cdr.read_encapsulation();
-    type.read(message, cdr);
-  } catch (const eprosima::fastcdr::exception::Exception& error) {
+    type.read(message, reader);
+  } catch (const DecodeError& error) {
     throw DecodeError(std::string(type.name) + ": " + error.what());
   }
 }

@@ -8,10 +8,10 @@
 namespace panvo::interfaces {
 namespace {
 
-struct Registry {
-  static Registry& instance() {
-    static Registry registry;  // static initialisers of libraries use it, in any order
-    return registry;
+struct Services {
+  static Services& instance() {
+    static Services services;  // static initialisers of libraries use it, in any order
+    return services;
   }
   std::mutex mutex;
   std::map<std::string_view, std::string_view> hashes;  // by name; of libraries that are never unloaded
@@ -20,17 +20,17 @@ struct Registry {
 }  // namespace
 
 ServiceTable::ServiceTable(std::span<const ServiceType> types) {
-  auto& registry = Registry::instance();
-  const std::lock_guard lock(registry.mutex);
-  for (const auto& type : types) registry.hashes.emplace(type.name, type.hash);
+  auto& services = Services::instance();
+  const std::lock_guard lock(services.mutex);
+  for (const auto& type : types) services.hashes.emplace(type.name, type.hash);
 }
 
 std::string_view service_hash(std::string_view name) {
   find_message_type(std::string(name) + "_Request");
-  auto& registry = Registry::instance();
-  const std::lock_guard lock(registry.mutex);
-  const auto found = registry.hashes.find(name);
-  return found == registry.hashes.end() ? std::string_view() : found->second;
+  auto& services = Services::instance();
+  const std::lock_guard lock(services.mutex);
+  const auto found = services.hashes.find(name);
+  return found == services.hashes.end() ? std::string_view() : found->second;
 }
 
 }  // namespace panvo::interfaces

@@ -217,9 +217,15 @@ class Output(unittest.TestCase):
         self.assertIn('{.name = "scale", .size = 4, .number = CdrNumber::kFloat, .array_size = 3, .is_array = true},', text)
         self.assertIn('{.name = "inner", .nested = &k_a_msgs_Inner_layout, .is_sequence = true},', text)
 
-    def test_failure_of_the_generator_is_reported(self):
-        with self.assertRaisesRegex(message_classes.GeneratorError, "failed with status 1"):
-            message_classes._run_fastddsgen("false", Path("x.idl"), Path("."))
+    def test_class_has_constants_defaults_and_includes(self):
+        lamp = parse("""module Thing_Constants { const string NAME = "a \\"b\\""; const uint64 MOST = 18446744073709551615; const boolean ON = TRUE; };
+            struct Thing { @default(value=-2) int8 state; @default(value="new") string label; sequence<boolean> lit; double scale[2];
+            a_msgs::msg::Inner inner; };""")
+        text = message_classes.headers({lamp.full_name: lamp}, self.messages)["a_msgs/msg/Thing.h"]
+        for line in ('inline constexpr const char* NAME = "a \\"b\\"";', "inline constexpr std::uint64_t MOST = 18446744073709551615U;", "inline constexpr bool ON = true;", '#include "a_msgs/msg/Inner.h"',
+                     "std::int8_t state_{-2};", 'std::string label_{"new"};', "std::vector<bool> lit_{};", "std::array<double, 2> scale_{};",
+                     "::a_msgs::msg::Inner inner_{};"):
+            self.assertIn(line, text)
 
 
 class RosPackage(unittest.TestCase):

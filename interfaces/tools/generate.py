@@ -49,8 +49,8 @@ def _needed_packages(messages: dict[str, idl.Message], known: dict[str, idl.Mess
     return sorted({known[name].package for name in names})
 
 
-def _sources(messages: dict[str, idl.Message], known: dict[str, idl.Message], rules: list[str], fastddsgen: str) -> dict[str, str]:
-    files = message_classes.generate(messages, known, fastddsgen)
+def _sources(messages: dict[str, idl.Message], known: dict[str, idl.Message], rules: list[str]) -> dict[str, str]:
+    files = message_classes.headers(messages, known)
     files["message_table.cpp"] = message_table.table(messages, known, rules)
     return files
 
@@ -66,9 +66,8 @@ def main() -> int:
     parser.add_argument("files", metavar="FILE", type=Path, nargs="*", help="definitions of the library: .idl, .msg or .srv")
     parser.add_argument("--known", type=Path, action="append", default=[], help="folder with definitions of other libraries, like --tree")
     parser.add_argument("--rules", action="append", default=[], help="include path of a header that declares problem_of() of messages")
-    parser.add_argument("--output", type=Path, required=True, help="output folder for <package>/{msg,srv}/<Name>.{h,cxx}, idl/ and message_table.cpp")
+    parser.add_argument("--output", type=Path, required=True, help="output folder for <package>/{msg,srv}/<Name>.h, idl/ and message_table.cpp")
     parser.add_argument("--prepare", action="store_true", help="only write idl/; print the packages of contained messages, then the names of the files")
-    parser.add_argument("--fastddsgen", default="fastddsgen", help="program that generates the classes")
     arguments = parser.parse_args()
     try:
         known = idl.read_trees(arguments.known)
@@ -83,8 +82,8 @@ def main() -> int:
             print(";".join(_needed_packages(messages, known)))
             print(";".join(message_classes.by_file(messages)))
         else:
-            files = _sources(messages, known, arguments.rules, arguments.fastddsgen)
-    except (idl.IdlError, message_classes.GeneratorError, OSError) as error:
+            files = _sources(messages, known, arguments.rules)
+    except (idl.IdlError, OSError) as error:
         print(f"generate.py: {error}", file=sys.stderr)
         return 1
     for name, text in files.items():

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes messages as IDL, for fastddsgen and for packages whose messages contain them."""
+"""Writes messages as IDL, for packages whose messages contain them."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
 
 import idl
 
@@ -30,7 +28,7 @@ def _type(type_: idl.Type) -> str:
 
 
 def _default(field: idl.Field) -> str:
-    """Only for single values: fastddsgen has no notation for defaults of arrays."""
+    """Only for single values: IDL has no notation for defaults of arrays."""
     if not field.default or field.type.array_size or field.type.is_sequence:
         return ""
     value = field.default
@@ -57,13 +55,13 @@ def _struct(message: idl.Message) -> list[str]:
     return lines
 
 
-def text(messages: list[idl.Message], include: Callable[[str], str] = str) -> str:
-    """IDL file of a message, or of a service's request and response. `include` maps the file name of another message to its include path."""
+def text(messages: list[idl.Message]) -> str:
+    """IDL file of a message, or of a service's request and response."""
     first = messages[0]
     guard = first.file_name.replace("/", "__") + "_idl"
     needed = dict.fromkeys(name for message in messages for name in message.direct_dependencies)
     lines = [f"#ifndef {guard}", f"#define {guard}", ""]
-    lines += [f'#include "{include(name)}.idl"' for name in needed] + ([""] if needed else [])
+    lines += [f'#include "{name}.idl"' for name in needed] + ([""] if needed else [])
     lines += [f"module {first.package} {{", f"  module {first.kind} {{"]
     for message in messages:
         lines += _struct(message)

@@ -1,30 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Generates the C++ classes of messages with eProsima's fastddsgen."""
+"""Writes the C++ classes of messages: members with accessors as in eProsima's IDL-to-C++ mapping, defaults, comparison, and the visit of all
+members by which they are encoded and decoded."""
 
 from __future__ import annotations
 
-import os
+import json
 import re
-import subprocess
-import tempfile
-from collections.abc import Iterable
-from pathlib import Path
 
 import idl
-import idl_text
 from type_hash import type_hash
 
-# fastddsgen runs for a few seconds only. Without Java's optimising compiler it takes half the time.
-_JAVA_OPTIONS = "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"
-
-
-class GeneratorError(Exception):
-    """fastddsgen failed. The message contains its output."""
-
-
-def _flat_name(file_name: str) -> str:
-    """File name that includes the package, because fastddsgen writes all its output into one folder."""
-    return file_name.replace("/", "__")
+_NUMBERS = {
+    "boolean": "bool", "octet": "std::uint8_t", "float": "float", "double": "double",
+    **{f"{sign}int{bits}": f"std::{sign}int{bits}_t" for sign in ("", "u") for bits in (8, 16, 32, 64)},
+}
 
 
 def by_file(messages: dict[str, idl.Message]) -> dict[str, list[idl.Message]]:
@@ -35,68 +24,96 @@ def by_file(messages: dict[str, idl.Message]) -> dict[str, list[idl.Message]]:
     return files
 
 
-def _write_flat_files(files: dict[str, list[idl.Message]], wanted: Iterable[str], folder: Path) -> Path:
-    """Writes the definitions under their flat names. Returns a file that includes those wanted, so that one Java process handles all."""
-    for name, defined in files.items():
-        (folder / f"{_flat_name(name)}.idl").write_text(idl_text.text(defined, _flat_name), encoding="utf-8")
-    root = folder / "all_messages.idl"
-    root.write_text("".join(f'#include "{_flat_name(name)}.idl"\n' for name in wanted), encoding="utf-8")
-    return root
+def _element(base: str) -> str:
+    if base == "string":
+        return "std::string"
+    return _NUMBERS.get(base) or "::" + base.replace("/", "::")
 
 
-def _run_fastddsgen(fastddsgen: str, root: Path, output: Path) -> str:
-    """Returns its stdout. Raises GeneratorError."""
-    command = [fastddsgen, "-cs", "-typeros2", "-replace", "-I", str(root.parent), "-t", str(root.parent), "-d", str(output), str(root)]
-    environment = {**os.environ, "JDK_JAVA_OPTIONS": _JAVA_OPTIONS}
-    result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
-    # Java reports options from the environment on stderr.
-    complaints = [line for line in result.stderr.splitlines() if line.strip() and "Picked up J" not in line]
-    # After some crashes its exit status is 0, but it has written to stderr.
-    if result.returncode != 0 or complaints:
-        raise GeneratorError("\n".join([f"{' '.join(command)} failed with status {result.returncode}:", result.stdout, *complaints]))
-    return result.stdout
+def _type(type_: idl.Type) -> str:
+    element = _element(type_.base)
+    if type_.array_size:
+        return f"std::array<{element}, {type_.array_size}>"
+    return f"std::vector<{element}>" if type_.is_sequence else element
 
 
-def _header(file_name: str, messages: list[idl.Message], every: dict[str, idl.Message], text: str) -> str:
-    """Adapts a generated header: includes the messages of its fields by path and adds the type hashes."""
-    text = re.sub(r'#include "[^"]*"\n', "", text)
-    needed = dict.fromkeys(name for message in messages for name in message.direct_dependencies)
-    own_includes = "".join(f'#include "{name}.h"\n' for name in needed)
-    anchor = "#include <fastrtps/utils/fixed_size_string.hpp>\n"
-    if text.count(anchor) != 1:
-        raise GeneratorError(f"{file_name}: unexpected header from fastddsgen; only version 2.3.0 is supported")
-    body, end, rest = text.replace(anchor, own_includes + anchor).rpartition("#endif")  # of the include guard
-    return body.rstrip() + "\n" + _hashes(messages, every) + "\n" + end + rest.rstrip() + "\n"
+def _unquoted(text: str) -> str:
+    if len(text) > 1 and text[0] == text[-1] and text[0] in "\"'":
+        text = text[1:-1]
+    return re.sub(r"\\(.)", r"\1", text)
 
 
-def _hashes(messages: list[idl.Message], every: dict[str, idl.Message]) -> str:
-    """C++ code with the type hashes that a binary is compiled with; compared with those of the library when it is loaded."""
-    lines = ["", "namespace panvo::interfaces {", "template <class Message>", "struct CompiledHash;"]
+def _value(base: str, text: str) -> str:
+    """C++ literal of a constant or default."""
+    if base == "string":
+        return json.dumps(_unquoted(text))
+    if base == "boolean":
+        return "true" if text.lower() in ("true", "1") else "false"
+    return text + "U" if base == "uint64" else text
+
+
+def _constants(message: idl.Message) -> list[str]:
+    if not message.constants:
+        return []
+    lines = [f"namespace {message.name}_Constants {{"]
+    for constant in message.constants:
+        type_ = "const char*" if constant.type == "string" else _NUMBERS[constant.type]
+        lines.append(f"inline constexpr {type_} {constant.name} = {_value(constant.type, constant.value)};")
+    return [*lines, f"}}  // namespace {message.name}_Constants", ""]
+
+
+def _accessors(field: idl.Field) -> list[str]:
+    type_, name = _type(field.type), field.name
+    is_number = type_ in _NUMBERS.values()
+    return [
+        f"  {type_ if is_number else f'const {type_}&'} {name}() const {{ return {name}_; }}",
+        f"  {type_}& {name}() {{ return {name}_; }}",
+        f"  void {name}({type_} value) {{ {name}_ = {'value' if is_number or field.type.array_size else 'std::move(value)'}; }}",
+    ]
+
+
+def _member(field: idl.Field) -> str:
+    is_single = not field.type.array_size and not field.type.is_sequence
+    default = _value(field.type.base, field.default) if field.default and is_single else ""
+    return f"  {_type(field.type)} {field.name}_{{{default}}};"
+
+
+def _class(message: idl.Message) -> list[str]:
+    lines = _constants(message)
+    lines += [f"/// {line}".rstrip() for line in message.comment.splitlines()]
+    lines += [f"class {message.name} {{", " public:"]
+    for field in message.fields:
+        lines += _accessors(field)
+    lines += ["", f"  bool operator==(const {message.name}&) const = default;", "", "  /// Calls `visit` with each member, in the order of the definition."]
+    lines += ["  static void for_each_member(auto& message, auto&& visit) {"]
+    lines += [f"    visit(message.{field.name}_);" for field in message.fields]
+    lines += ["  }", "", " private:", *map(_member, message.fields), "};", ""]
+    return lines
+
+
+def _hashes(messages: list[idl.Message], every: dict[str, idl.Message]) -> list[str]:
+    """The type hashes that a binary is compiled with; compared with those of the library when it is loaded."""
+    lines = ["namespace panvo::interfaces {", "template <class Message>", "struct CompiledHash;"]
     for message in messages:
         lines += ["template <>", f"struct CompiledHash<::{message.cpp_name}> {{", f'  static constexpr char kValue[] = "{type_hash(message, every)}";', "};"]
-    return "\n".join([*lines, "}  // namespace panvo::interfaces", ""])
+    return [*lines, "}  // namespace panvo::interfaces"]
 
 
-def _source(file_name: str, _messages: list[idl.Message], _every: dict[str, idl.Message], text: str) -> str:
-    """Adapts a generated source file: includes its header by path, and removes addresses of Java objects, which differ between runs."""
-    text = re.sub(r"\n\s*// m_\w+ com\.eprosima\.[^\n]*", "", text)
-    return text.replace(f'#include "{_flat_name(file_name)}.h"', f'#include "{file_name}.h"').rstrip() + "\n"
+def header(messages: list[idl.Message], every: dict[str, idl.Message]) -> str:
+    """Header of a message, or of a service's request and response."""
+    first = messages[0]
+    needed = dict.fromkeys(name for message in messages for name in message.direct_dependencies)
+    lines = [f"// Generated from {first.file_name}.", "#pragma once", "", "#include <array>", "#include <cstdint>", "#include <string>",
+             "#include <utility>", "#include <vector>", "", *(f'#include "{name}.h"' for name in needed), ""]
+    lines += [f"namespace {first.package}::{first.kind} {{", ""]
+    for message in messages:
+        lines += _class(message)
+    lines += [f"}}  // namespace {first.package}::{first.kind}", "", *_hashes(messages, every)]
+    return "\n".join(lines) + "\n"
 
 
-def generate(messages: dict[str, idl.Message], known: dict[str, idl.Message], fastddsgen: str) -> dict[str, str]:
-    """Contents of <package>/msg/<Name>.h and .cxx for each message, <package>/srv/... for each service, by path. `known`: messages of other
-    libraries that they may contain. Raises GeneratorError."""
-    files = {}
-    own = by_file(messages)
-    with tempfile.TemporaryDirectory() as temporary:
-        idl_folder, output = Path(temporary, "idl"), Path(temporary, "cpp")
-        idl_folder.mkdir()
-        output.mkdir()
-        said = _run_fastddsgen(fastddsgen, _write_flat_files({**by_file(known), **own}, own, idl_folder), output)
-        for name, defined in own.items():
-            for suffix, adapt in ((".h", _header), (".cxx", _source)):
-                path = output / (_flat_name(name) + suffix)
-                if not path.exists():
-                    raise GeneratorError(f"{name}: fastddsgen did not write {path.name}; its output:\n{said}")
-                files[name + suffix] = adapt(name, defined, {**known, **messages}, path.read_text(encoding="utf-8"))
-    return files
+def headers(messages: dict[str, idl.Message], known: dict[str, idl.Message]) -> dict[str, str]:
+    """Contents of <package>/msg/<Name>.h for each message, <package>/srv/<Name>.h for each service, by path. `known`: messages of other
+    libraries that they may contain."""
+    every = {**known, **messages}
+    return {f"{name}.h": header(defined, every) for name, defined in by_file(messages).items()}

@@ -12,7 +12,7 @@ import workspace
 # Library of an include path, by its first part.
 LIBRARIES = {
     "Eigen": "eigen", "unsupported": "eigen", "opencv2": "opencv", "ceres": "ceres", "opengv": "opengv",
-    "fastdds": "fastdds", "fastrtps": "fastdds", "fastcdr": "fastdds",
+    "fastdds": "fastdds", "fastrtps": "fastdds",
     "yaml-cpp": "yaml", "spdlog": "log", "fmt": "text", "CLI": "command line", "nlohmann": "json",
     "sqlite3.h": "sqlite", "libpq-fe.h": "libpq", "tinyxml2.h": "xml", "systemd": "systemd", "zlib.h": "zlib",
     "civetweb.h": "civetweb", "embree3": "embree", "arv.h": "aravis", "glib.h": "aravis", "glib-object.h": "aravis",
@@ -43,7 +43,7 @@ def floor(name, packages="", libraries="", threads_and_clocks=True):
 
 VISION = floor("vision", "", "eigen, opencv", False)
 CALIBRATION_FILES = floor("calibration files", "vision", "eigen, yaml", False)
-INTERFACES = floor("interfaces", "", "messages, fastdds")
+INTERFACES = floor("interfaces", "", "messages")
 SQLITE = floor("sqlite", "", "sqlite")
 # connections, and the thread that waits for a server in place of a component
 POSTGRES = floor("postgres", "", "libpq")

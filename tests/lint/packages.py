@@ -10,7 +10,7 @@ METAS = ["colcon.meta", "config/build/asan.meta", "config/build/ubsan.meta", "co
 # CMake name of a library -> Debian package.
 DEBIAN = {
     "Eigen3": "libeigen3-dev", "OpenCV": "libopencv-dev", "Ceres": "libceres-dev", "opengv": "libopengv-dev", "fastrtps": "libfastrtps-dev",
-    "fastcdr": "libfastcdr-dev", "yaml-cpp": "libyaml-cpp-dev", "spdlog": "libspdlog-dev", "CLI11": "libcli11-dev",
+    "fastcdr": "libfastrtps-dev", "yaml-cpp": "libyaml-cpp-dev", "spdlog": "libspdlog-dev", "CLI11": "libcli11-dev",
     "nlohmann_json": "nlohmann-json3-dev", "SQLite3": "libsqlite3-dev", "PostgreSQL": "libpq-dev", "GTest": "libgtest-dev", "benchmark": "libbenchmark-dev",
     "fmt": "libfmt-dev", "OpenSSL": "libssl-dev", "CycloneDDS": "cyclonedds-dev", "PNG": "libpng-dev",
     "tinyxml2": "libtinyxml2-dev", "embree": "libembree-dev", "ZLIB": "zlib1g-dev",

@@ -8,12 +8,9 @@
 #include <span>
 
 #include "builtin_interfaces/msg/Time.h"
+#include "panvo/interfaces/cdr.hpp"
 #include "panvo/interfaces/message_layout.hpp"
 #include "panvo/interfaces/message_type.hpp"
-
-namespace eprosima::fastcdr {
-class Cdr;
-}  // namespace eprosima::fastcdr
 
 /// Builds a MessageType from a message class. Only for generated message tables.
 namespace panvo::interfaces {
@@ -28,8 +25,8 @@ inline constexpr std::size_t kEncapsulationSize = 4;
 struct CdrType {
   std::string_view name;
   const CdrLayout* layout;
-  void (*write)(const void* message, eprosima::fastcdr::Cdr& cdr);
-  void (*read)(void* message, eprosima::fastcdr::Cdr& cdr);
+  void (*write)(const void* message, CdrWriter& writer);
+  void (*read)(void* message, CdrReader& reader);
 };
 
 /// Writes encapsulation header and message as XCDR1, little endian. Writes every byte of `out`, which must have the
@@ -49,14 +46,15 @@ template <class Message>
 constexpr CdrType kCdrType{
     .name = Facts<Message>::name,
     .layout = &Facts<Message>::layout,
-    .write = [](const void* message,
-                eprosima::fastcdr::Cdr& cdr) { static_cast<const Message*>(message)->serialize(cdr); },
-    .read = [](void* message, eprosima::fastcdr::Cdr& cdr) { static_cast<Message*>(message)->deserialize(cdr); },
+    .write = [](const void* message, CdrWriter& writer) { writer(*static_cast<const Message*>(message)); },
+    .read = [](void* message, CdrReader& reader) { reader(*static_cast<Message*>(message)); },
 };
 
 template <class Message>
 std::size_t serialized_size(const void* message) {
-  return kEncapsulationSize + Message::getCdrSerializedSize(*static_cast<const Message*>(message));
+  CdrSize size;
+  size(*static_cast<const Message*>(message));
+  return kEncapsulationSize + size.value();
 }
 
 template <class Message>
