@@ -5,6 +5,7 @@ include_guard(DIRECTORY)
 include(CMakePackageConfigHelpers)
 include(CTest)
 include(GNUInstallDirs)
+include(${CMAKE_CURRENT_LIST_DIR}/panvo_fast_dds.cmake)
 
 option(PANVO_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(PANVO_SANITIZE "" CACHE STRING "Sanitizers to build with: address, undefined, thread, or a comma-separated list")
@@ -48,10 +49,13 @@ function(_panvo_compile_settings target)
   # -ffp-contract=off: same rounding on every machine, so that replays are bit-identical. -U__ARM_FEATURE_FMA: without fused operations in Eigen's
   # code for ARM, too.
   # -Wno-restrict: GCC 12 warns of overlapping strings where there are none (GCC bug 105651).
+  # -Wno-maybe-uninitialized: from GCC 13 on, an std::optional without a value may count as read (GCC bug 80635).
   # -fno-gnu-unique: an STB_GNU_UNIQUE symbol would keep a plugin in memory after it is unloaded.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
     -ffp-contract=off $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},aarch64>:-U__ARM_FEATURE_FMA>
-    $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique$<SEMICOLON>-Wno-restrict> $<$<BOOL:${PANVO_WARNINGS_AS_ERRORS}>:-Werror>)
+    $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique$<SEMICOLON>-Wno-restrict>
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>
+    $<$<BOOL:${PANVO_WARNINGS_AS_ERRORS}>:-Werror>)
   if(PANVO_FUZZ)
     # Without vptr and function, which need type information that the distribution's libraries do not have.
     target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize=vptr,function

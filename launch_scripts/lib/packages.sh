@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 # Finds and installs missing Debian packages of packages.txt.
 
-# packages_of GROUP...: package names under [GROUP] in packages.txt.
+# packages_of GROUP...: entries under [GROUP] in packages.txt: a package, or alternatives "a|b".
 packages_of() {
   local group
   for group in "$@"; do
@@ -16,12 +16,31 @@ packages_of() {
 
 package_groups() { sed -n 's/^\[\(.*\)\].*/\1/p' "$PANVO_SCRIPTS/packages.txt"; }
 
-# missing_packages GROUP...: packages that are neither installed nor provided by an installed one.
+# chosen_packages A|B...: package names; of alternatives the first that this distribution has.
+chosen_packages() {
+  local entry name
+  for entry in "$@"; do
+    for name in ${entry//|/ } "${entry%%|*}"; do
+      [[ $entry != *'|'* ]] || package_lists_know "$name" || continue
+      break
+    done
+    printf '%s\n' "$name"
+  done
+}
+
+# missing_packages GROUP...: entries without a package that is installed or provided by an installed one.
 missing_packages() {
+  local entry name present
   local -a wanted
   mapfile -t wanted < <(packages_of "$@")
   ((${#wanted[@]})) || fail "packages.txt lists nothing for: $*"
-  comm -23 <(printf '%s\n' "${wanted[@]}" | sort -u) <(present_packages)
+  present=" $(present_packages | tr '\n' ' ')"
+  for entry in "${wanted[@]}"; do
+    for name in ${entry//|/ }; do
+      [[ $present != *" $name "* ]] || continue 2
+    done
+    printf '%s\n' "$entry"
+  done | sort -u
 }
 
 # Sorted names of installed packages and of what they provide: a nodejs from elsewhere than Debian provides npm and excludes Debian's.
@@ -66,7 +85,7 @@ install_packages() {
       as_root=(sudo)
     else
       fail "packages are missing, and installing them needs root. Run as root:
-  apt-get install --no-install-recommends $*"
+  apt-get install --no-install-recommends $(chosen_packages "$@" | tr '\n' ' ')"
     fi
   fi
   local log
@@ -76,9 +95,11 @@ install_packages() {
     note "reading package lists"
     "${as_root[@]}" apt-get update -q >>"$log" 2>&1 || note "apt-get update failed; continuing with the present package lists"
   fi
-  if ! apt_install "$@" && ! { refresh_after_failure && apt_install "$@"; }; then
+  local -a chosen
+  mapfile -t chosen < <(chosen_packages "$@")
+  if ! apt_install "${chosen[@]}" && ! { refresh_after_failure && apt_install "${chosen[@]}"; }; then
     tail -n 20 "$log" >&2
-    fail "installing packages failed; full log: $log. To install by hand: apt-get install --no-install-recommends $*"
+    fail "installing packages failed; full log: $log. To install by hand: apt-get install --no-install-recommends ${chosen[*]}"
   fi
   note "packages installed"
 }
@@ -95,10 +116,14 @@ refresh_after_failure() {
   "${as_root[@]}" apt-get update -q >>"$log" 2>&1
 }
 
+# package_lists_know A|B...: whether apt knows one of each alternatives.
 package_lists_know() {
-  local name
-  for name in "$@"; do
-    apt-cache show --no-all-versions "$name" >/dev/null 2>&1 || return 1
+  local entry name
+  for entry in "$@"; do
+    for name in ${entry//|/ }; do
+      ! apt-cache show --no-all-versions "$name" >/dev/null 2>&1 || continue 2
+    done
+    return 1
   done
 }
 

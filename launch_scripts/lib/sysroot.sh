@@ -39,7 +39,7 @@ ensure_sysroot() {
 }
 
 # sysroot_packages: of the packages of a build, those with headers and libraries; the others are tools, which run on this machine.
-sysroot_packages() { packages_of build | grep -e '-dev$'; }
+sysroot_packages() { packages_of build | sed 's/|.*//' | grep -e '-dev$'; }  # of Debian 12
 
 # download_packages ARCH FOLDER PACKAGES: these packages and all that they depend on, into FOLDER/cache/archives.
 download_packages() {

@@ -37,7 +37,11 @@ verb_main() {
   done
 
   case $action in
-    list) packages_of "${groups[@]}" ;;
+    list)
+      local -a entries
+      mapfile -t entries < <(packages_of "${groups[@]}")
+      chosen_packages "${entries[@]}"
+      ;;
     check)
       local missing
       missing=$(missing_packages "${groups[@]}")

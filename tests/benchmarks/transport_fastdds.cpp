@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
-
 #include <atomic>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -11,11 +8,11 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "dds/fast_dds_transports.hpp"
 #include "nav_msgs/msg/Odometry.h"
 #include "panvo/interfaces/message_type.hpp"
 #include "sensor_msgs/msg/Image.h"
@@ -25,40 +22,32 @@
 namespace panvo::bench {
 namespace {
 
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
-using eprosima::fastrtps::types::ReturnCode_t;
+namespace fdds = runtime::dds::fdds;
+namespace rtps = runtime::dds::rtps;
 
 /// As Fast DDS's own generator has it for each type, with panvo's encoding.
 template <class Type>
-class GeneratedType final : public fdds::TopicDataType {
+class GeneratedType final : public runtime::dds::KeylessType {
  public:
-  GeneratedType() {
-    setName(std::string(type_.dds_name).c_str());
-    m_typeSize = static_cast<std::uint32_t>(type_.serialized_size(&empty_));
-    m_isGetKeyDefined = false;
-  }
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
-    payload->encapsulation = CDR_LE;
-    payload->length = static_cast<std::uint32_t>(type_.serialized_size(data));
-    type_.serialize(data, {payload->data, payload->length});
-    return true;
-  }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
-    *static_cast<Type*>(data) =
-        std::move(*std::static_pointer_cast<Type>(type_.deserialize({payload->data, payload->length})));
-    return true;
-  }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [this, data] { return static_cast<std::uint32_t>(type_.serialized_size(data)); };
-  }
-  void* createData() override { return new Type; }
-  void deleteData(void* data) override { delete static_cast<Type*>(data); }
-  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+  GeneratedType() : KeylessType(std::string(interfaces::message_type<Type>().dds_name)) { set_max_size(256); }
 
  private:
+  bool write(const void* data, rtps::SerializedPayload_t& payload) override {
+    payload.length = size_of(data);
+    type_.serialize(data, {payload.data, payload.length});
+    payload.encapsulation = payload.data[1];
+    return true;
+  }
+  bool read(rtps::SerializedPayload_t& payload, void* data) override {
+    *static_cast<Type*>(data) =
+        std::move(*std::static_pointer_cast<Type>(type_.deserialize({payload.data, payload.length})));
+    return true;
+  }
+  std::uint32_t size_of(const void* data) override { return static_cast<std::uint32_t>(type_.serialized_size(data)); }
+  void* make() override { return new Type; }
+  void drop(void* data) override { delete static_cast<Type*>(data); }
+
   const interfaces::MessageType& type_ = interfaces::message_type<Type>();
-  const Type empty_{};
 };
 
 template <class Type>
@@ -113,10 +102,10 @@ class FastddsTransport final : public Transport, fdds::DataReaderListener {
   static fdds::DomainParticipantQos participant_qos() {
     fdds::DomainParticipantQos qos;
     qos.transport().use_builtin_transports = false;
-    const auto shared_memory = std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>();
+    const auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
     shared_memory->segment_size(32 * 1024 * 1024);
     qos.transport().user_transports.push_back(shared_memory);
-    const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    const auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
     udp->sendBufferSize = udp->receiveBufferSize = 4 * 1024 * 1024;
     qos.transport().user_transports.push_back(udp);
     return qos;
@@ -124,7 +113,7 @@ class FastddsTransport final : public Transport, fdds::DataReaderListener {
 
   void on_data_available(fdds::DataReader* reader) override {
     fdds::SampleInfo info;
-    while (reader->take_next_sample(&received_, &info) == ReturnCode_t::RETCODE_OK) {
+    while (reader->take_next_sample(&received_, &info) == runtime::dds::kOk) {
       const auto& stamp = received_.header().stamp();
       if (info.valid_data) arrived_(std::int64_t{stamp.sec()} * 1'000'000'000 + stamp.nanosec());
     }

@@ -9,7 +9,7 @@ import workspace
 METAS = ["colcon.meta", "config/build/asan.meta", "config/build/ubsan.meta", "config/build/tsan.meta"]
 # CMake name of a library -> Debian package.
 DEBIAN = {
-    "Eigen3": "libeigen3-dev", "OpenCV": "libopencv-dev", "Ceres": "libceres-dev", "opengv": "libopengv-dev", "fastrtps": "libfastrtps-dev",
+    "Eigen3": "libeigen3-dev", "OpenCV": "libopencv-dev", "Ceres": "libceres-dev", "opengv": "libopengv-dev", "fastrtps": "libfastrtps-dev", "fastdds": "libfastdds-dev",
     "fastcdr": "libfastrtps-dev", "yaml-cpp": "libyaml-cpp-dev", "spdlog": "libspdlog-dev", "CLI11": "libcli11-dev",
     "nlohmann_json": "nlohmann-json3-dev", "SQLite3": "libsqlite3-dev", "PostgreSQL": "libpq-dev", "GTest": "libgtest-dev", "benchmark": "libbenchmark-dev",
     "fmt": "libfmt-dev", "OpenSSL": "libssl-dev", "CycloneDDS": "cyclonedds-dev", "PNG": "libpng-dev",
@@ -83,7 +83,7 @@ def check_debian_packages(root):
     list_file = root / "launch_scripts" / "packages.txt"
     if not list_file.is_file():
         return ["launch_scripts/packages.txt: is missing"]
-    listed = {line.split()[0] for line in list_file.read_text(encoding="utf-8").splitlines() if re.match(r"[a-z]", line)}
+    listed = {name for line in list_file.read_text(encoding="utf-8").splitlines() if re.match(r"[a-z]", line) for name in line.split()[0].split("|")}
     complaints = []
     for folder in workspace.package_folders(root):
         for used in sorted(set(re.findall(r"find_package\(\s*([\w-]+)", cmake_text(root, folder)))):

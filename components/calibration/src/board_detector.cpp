@@ -53,15 +53,8 @@ double brightness(const cv::Mat& grey, cv::Point2f at) {
 
 }  // namespace
 
-struct BoardDetector::Markers {
-  cv::Ptr<cv::aruco::CharucoBoard> board;
-  cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
-};
-
 BoardDetector::BoardDetector(const Board& board) : board_(board) {
-  if (board.kind != Board::Kind::kCharuco) return;
-  markers_ = std::make_unique<Markers>();
-  markers_->board = charuco_board(board);
+  if (board.kind == Board::Kind::kCharuco) charuco_ = std::make_unique<CharucoDetector>(board);
 }
 
 BoardDetector::~BoardDetector() = default;
@@ -100,12 +93,8 @@ Sighting BoardDetector::detect_chessboard(const cv::Mat& grey) const {
 }
 
 Sighting BoardDetector::detect_charuco(const cv::Mat& grey) const {
-  std::vector<std::vector<cv::Point2f>> markers;
-  std::vector<int> marker_ids, ids;
-  std::vector<cv::Point2f> corners;
-  cv::aruco::detectMarkers(grey, markers_->board->dictionary, markers, marker_ids, markers_->parameters);
-  if (marker_ids.empty()) return {{}, fmt::format("no markers of {} found", board_.dictionary)};
-  cv::aruco::interpolateCornersCharuco(markers, marker_ids, grey, markers_->board, corners, ids);
+  const auto [markers, ids, corners] = charuco_->detect(grey);
+  if (markers == 0) return {{}, fmt::format("no markers of {} found", board_.dictionary)};
   std::set<int> rows, columns;
   for (const int id : ids) {
     rows.insert(id / board_.columns);
@@ -114,7 +103,7 @@ Sighting BoardDetector::detect_charuco(const cv::Mat& grey) const {
   if (ids.size() < kMinCorners || rows.size() < 2 || columns.size() < 2)
     return {{},
             fmt::format("{} markers and {} corners found; at least {} corners in two rows and columns are needed",
-                        marker_ids.size(), ids.size(), kMinCorners)};
+                        markers, ids.size(), kMinCorners)};
   Sighting sighting;
   for (std::size_t i = 0; i < ids.size(); ++i) sighting.corners.push_back({ids[i], {corners[i].x, corners[i].y}});
   refine(grey, board_, sighting.corners);

@@ -37,14 +37,7 @@ std::vector<Patch> paint(const Board& board) {
     for (int column = row % 2; column <= board.columns; column += 2) patches.push_back({square(board, column, row)});
   }
   if (board.kind == Board::Kind::kChessboard) return patches;
-  const auto charuco = charuco_board(board);
-  const auto& dictionary = *charuco->dictionary;
-  for (std::size_t i = 0; i < charuco->ids.size(); ++i) {
-    const int id = charuco->ids[i];
-    const cv::Mat bits =
-        cv::aruco::Dictionary::getBitsFromByteList(dictionary.bytesList.rowRange(id, id + 1), dictionary.markerSize);
-    paint_marker(bits, charuco->objPoints[i], board.square_m, patches);
-  }
+  for (const auto& marker : charuco_markers(board)) paint_marker(marker.bits, marker.corners, board.square_m, patches);
   return patches;
 }
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "discovery.hpp"
 
-#include <fastdds/rtps/builtin/data/ReaderProxyData.h>
-#include <fastdds/rtps/builtin/data/WriterProxyData.h>
 #include <spdlog/fmt/fmt.h>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
 
 #include <algorithm>
 #include <string_view>
 
+#include "fast_dds.hpp"
 #include "image_sharing.hpp"
 #include "names.hpp"
 #include "node_info.hpp"
@@ -18,9 +16,6 @@
 #include "udp_transport.hpp"
 
 namespace panvo::runtime::dds {
-
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
@@ -32,14 +27,10 @@ std::string readable_type_name(const std::string& wire_name) {
 }
 
 // A reader's requested QoS, or the QoS a reader needs to get everything the writer offers.
-template <class EndpointQos>
-interfaces::Qos qos_of(const EndpointQos& endpoint) {
+interfaces::Qos qos_of(const FoundEndpoint& endpoint) {
   interfaces::Qos qos;
-  qos.requested = endpoint.m_reliability.kind == fdds::RELIABLE_RELIABILITY_QOS ? interfaces::Reliability::kReliable
-                                                                                : interfaces::Reliability::kBestEffort;
-  qos.durability = endpoint.m_durability.kind == fdds::VOLATILE_DURABILITY_QOS
-                       ? interfaces::Durability::kVolatile
-                       : interfaces::Durability::kTransientLocal;
+  qos.requested = endpoint.is_reliable ? interfaces::Reliability::kReliable : interfaces::Reliability::kBestEffort;
+  qos.durability = endpoint.is_volatile ? interfaces::Durability::kVolatile : interfaces::Durability::kTransientLocal;
   return qos;
 }
 
@@ -54,17 +45,15 @@ std::string type_hash(const std::vector<rtps::octet>& user_data) {
 }
 
 // An endpoint with ROS 2 names.
-template <class Proxy>
-GraphEndpoint shown(Proxy& proxy, bool is_writer) {
-  const std::string wire_name = proxy.topicName().to_string(), wire_type = proxy.typeName().to_string();
+GraphEndpoint shown(const FoundEndpoint& found, bool is_writer) {
   GraphEndpoint endpoint{.kind = EndpointKind::kOther,
-                         .name = wire_name,
-                         .type_name = wire_type,
+                         .name = found.topic_name,
+                         .type_name = found.type_name,
                          .is_writer = is_writer,
-                         .qos = qos_of(proxy.m_qos),
-                         .type_hash = type_hash(proxy.m_qos.m_userData.data_vec()),
-                         .gid = hexadecimal(proxy.guid())};
-  const auto type_name = type_name_from_wire(wire_type);
+                         .qos = qos_of(found),
+                         .type_hash = type_hash(found.user_data),
+                         .gid = hexadecimal(found.guid)};
+  const auto type_name = type_name_from_wire(found.type_name);
   if (!type_name) return endpoint;
   const auto set = [&](EndpointKind kind, const std::optional<std::string>& name) {
     if (!name) return;
@@ -72,9 +61,9 @@ GraphEndpoint shown(Proxy& proxy, bool is_writer) {
     endpoint.name = *name;
     endpoint.type_name = kind == EndpointKind::kTopic ? *type_name : service_type_name(*type_name);
   };
-  set(EndpointKind::kTopic, topic_name_from_wire(wire_name));
-  set(EndpointKind::kRequest, service_from_wire_request(wire_name));
-  set(EndpointKind::kReply, service_from_wire_reply(wire_name));
+  set(EndpointKind::kTopic, topic_name_from_wire(found.topic_name));
+  set(EndpointKind::kRequest, service_from_wire_request(found.topic_name));
+  set(EndpointKind::kReply, service_from_wire_reply(found.topic_name));
   return endpoint;
 }
 
@@ -148,23 +137,20 @@ void Discovery::on_participant_gone(std::function<void(const rtps::GuidPrefix_t&
   on_participant_gone_ = std::move(callback);
 }
 
-void Discovery::on_participant_discovery(fdds::DomainParticipant* participant, rtps::ParticipantDiscoveryInfo&& info) {
-  using Info = rtps::ParticipantDiscoveryInfo;
-  const auto prefix = info.info.m_guid.guidPrefix;
+void Discovery::on_participant(const rtps::GUID_t& own, const FoundParticipant& found) {
+  const auto prefix = found.guid.guidPrefix;
   const std::lock_guard lock(mutex_);
-  if (info.status != Info::REMOVED_PARTICIPANT && info.status != Info::DROPPED_PARTICIPANT) {
-    const auto& listened = info.info.metatraffic_locators.unicast;
-    const std::vector<rtps::Locator_t> ports(listened.begin(), listened.end());
-    let_go_replaced_by(info.info.m_guid, ports);
+  if (!found.is_gone) {
+    let_go_replaced_by(found.guid, found.ports);
     auto& remote = remote_participants_[prefix];
-    remote.seen_by.insert(participant->guid());
-    remote.ports = ports;
-    remote.is_of_cyclone = info.info.m_VendorId == kCyclone;
-    remote.is_here = remote.is_of_cyclone && are_on_this_host(ports);
+    remote.seen_by.insert(own);
+    remote.ports = found.ports;
+    remote.is_of_cyclone = found.vendor == kCyclone;
+    remote.is_here = remote.is_of_cyclone && are_on_this_host(found.ports);
     return;
   }
   auto& seen_by = remote_participants_[prefix].seen_by;
-  seen_by.erase(participant->guid());
+  seen_by.erase(own);
   if (!seen_by.empty()) return;
   remote_participants_.erase(prefix);
   if (on_participant_gone_) on_participant_gone_(prefix);
@@ -179,43 +165,40 @@ void Discovery::let_go_replaced_by(const rtps::GUID_t& newcomer, const std::vect
   }
 }
 
-void Discovery::on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
-  if (is_of_this_process(info.info.guid())) return;  // Fast DDS reports a participant's own endpoints too
+void Discovery::on_writer(const FoundEndpoint& found) {
+  if (is_of_this_process(found.guid)) return;  // Fast DDS reports a participant's own endpoints too
   const std::lock_guard lock(mutex_);
-  if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) {
-    remote_endpoints_.erase(info.info.guid());
+  if (found.is_gone) {
+    remote_endpoints_.erase(found.guid);
     return;
   }
-  const RemoteEndpoint remote{{info.info.topicName().to_string(), info.info.typeName().to_string()},
-                              shown(info.info, true)};
-  remember(info.info.guid(), remote);
+  const RemoteEndpoint remote{{found.topic_name, found.type_name}, shown(found, true)};
+  remember(found.guid, remote);
   const auto& [kind, name, type_name, is_writer, qos, hash, gid] = remote.shown;
   if (kind == EndpointKind::kTopic) announce({name, type_name, qos, interfaces::find_message_type(type_name)});
 }
 
-void Discovery::on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
-  const auto guid = info.info.guid();
-  if (is_of_this_process(guid)) return;
-  const RemoteEndpoint remote{{info.info.topicName().to_string(), info.info.typeName().to_string()},
-                              shown(info.info, false),
-                              is_in_neighbourhood(info.info.m_qos.data_sharing),
-                              std::string_view(info.info.content_filter().filter_class_name) != kRemoteOnlyClass};
-  const bool is_gone = info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER;
+void Discovery::on_reader(const FoundEndpoint& found) {
+  if (is_of_this_process(found.guid)) return;
+  const RemoteEndpoint remote{{found.topic_name, found.type_name},
+                              shown(found, false),
+                              is_in_neighbourhood(found.data_sharing),
+                              found.filter_class != kRemoteOnlyClass};
   std::function<void(const rtps::GUID_t&, NodesReader)> on_nodes_reader;
   {
     const std::lock_guard lock(mutex_);
-    if (is_gone) {
-      remote_endpoints_.erase(guid);
+    if (found.is_gone) {
+      remote_endpoints_.erase(found.guid);
     } else {
-      remember(guid, remote);
+      remember(found.guid, remote);
     }
     on_nodes_reader = on_nodes_reader_;
   }
   if (remote.topic.name != kNodesTopic || !on_nodes_reader) return;
   // Distributions since Iron put type hashes into the user data of their endpoints.
-  on_nodes_reader(guid, is_gone                          ? NodesReader::kGone
-                        : remote.shown.type_hash.empty() ? NodesReader::kOfHumble
-                                                         : NodesReader::kOfLaterDistribution);
+  on_nodes_reader(found.guid, found.is_gone                    ? NodesReader::kGone
+                              : remote.shown.type_hash.empty() ? NodesReader::kOfHumble
+                                                               : NodesReader::kOfLaterDistribution);
 }
 
 void Discovery::on_nodes_reader(std::function<void(const rtps::GUID_t&, NodesReader)> callback) {

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "fast_dds.hpp"
 #include "panvo/interfaces/service_type.hpp"
 #include "participant_qos.hpp"
 
 namespace panvo::runtime::dds {
 
-namespace fdds = eprosima::fastdds::dds;
 using interfaces::Durability;
 using interfaces::Reliability;
 
@@ -37,7 +37,7 @@ fdds::DurabilityQosPolicyKind durability_kind(Durability durability) {
 template <class EndpointQos>
 void set_type_hash(std::string_view type_hash, EndpointQos& qos) {
   const std::string text = fmt::format("typehash={};", type_hash);
-  qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(text.begin(), text.end()));
+  qos.user_data().setValue(std::vector<rtps::octet>(text.begin(), text.end()));
 }
 
 // QoS common to writers and readers.
@@ -52,7 +52,7 @@ void apply_common(const TopicDescription& topic, EndpointQos& qos) {
   qos.resource_limits().max_instances = 1;
   qos.resource_limits().max_samples_per_instance = depth;
   qos.resource_limits().allocated_samples = std::min(depth, kPreallocatedSamples);
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   if (topic.type) set_type_hash(topic.type->hash, qos);
 }
 
@@ -88,7 +88,7 @@ PolicyText policy_text(fdds::QosPolicyId_t policy) {
 
 }  // namespace
 
-eprosima::fastrtps::Duration_t to_dds(std::chrono::nanoseconds time) {
+Duration to_dds(std::chrono::nanoseconds time) {
   time = std::max(time, std::chrono::nanoseconds(0));
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
   return {static_cast<std::int32_t>(seconds.count()), static_cast<std::uint32_t>((time - seconds).count())};
@@ -104,7 +104,7 @@ void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   // the publisher (at 100 Mbit/s a panorama of 1.75 MB blocked it for 122 ms, now 0.8 ms). Other messages are small and
   // sent at once.
   if (topic.qos.requested == Reliability::kBestEffort) qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
-  qos.reliable_writer_qos().times.heartbeatPeriod = to_dds(kHeartbeatPeriod);
+  set_heartbeat(to_dds(kHeartbeatPeriod), qos);
   qos.representation().m_value = {fdds::XCDR_DATA_REPRESENTATION};
   // Readers filter, see remote_only_filter.hpp: a writer would send the result with each message.
   qos.writer_resource_limits().reader_filters_allocation = {0, 0, 0};
@@ -121,7 +121,7 @@ void apply(const TopicDescription& topic, fdds::DataReaderQos& qos) {
   qos.reliability().kind = topic.qos.requested == Reliability::kReliable || is_reliable_by_profile
                                ? fdds::RELIABLE_RELIABILITY_QOS
                                : fdds::BEST_EFFORT_RELIABILITY_QOS;
-  qos.type_consistency().representation.m_value = {fdds::XCDR_DATA_REPRESENTATION};
+  set_representation(qos);
   qos.data_sharing().off();
 }
 

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <string>
 
+#include "fast_dds.hpp"
 #include "panvo/runtime/bridge.hpp"
 
 namespace panvo::runtime::dds {
@@ -19,20 +20,20 @@ inline constexpr int kWriteAttempts = 2;
 inline constexpr std::chrono::milliseconds kMaxBlockingTime{50};
 
 /// Converts to a DDS duration; negative times become 0.
-eprosima::fastrtps::Duration_t to_dds(std::chrono::nanoseconds time);
+Duration to_dds(std::chrono::nanoseconds time);
 
 /// Applies a topic's QoS and ROS 2's conventions to `qos`, which holds the participant's defaults (possibly from a
 /// user's profile).
-void apply(const TopicDescription& topic, eprosima::fastdds::dds::DataWriterQos& qos);
-void apply(const TopicDescription& topic, eprosima::fastdds::dds::DataReaderQos& qos);
+void apply(const TopicDescription& topic, fdds::DataWriterQos& qos);
+void apply(const TopicDescription& topic, fdds::DataReaderQos& qos);
 
 /// The same for the topics of a service.
-void apply(const ServiceDescription& service, eprosima::fastdds::dds::DataWriterQos& qos);
-void apply(const ServiceDescription& service, eprosima::fastdds::dds::DataReaderQos& qos);
+void apply(const ServiceDescription& service, fdds::DataWriterQos& qos);
+void apply(const ServiceDescription& service, fdds::DataReaderQos& qos);
 
 /// Warning for a writer (or reader) of `topic` that is incompatible with a remote reader (or writer) in that policy:
 /// topic, difference, remedy.
-std::string describe_offer_refused(const std::string& topic, eprosima::fastdds::dds::QosPolicyId_t policy);
-std::string describe_request_refused(const std::string& topic, eprosima::fastdds::dds::QosPolicyId_t policy);
+std::string describe_offer_refused(const std::string& topic, fdds::QosPolicyId_t policy);
+std::string describe_request_refused(const std::string& topic, fdds::QosPolicyId_t policy);
 
 }  // namespace panvo::runtime::dds

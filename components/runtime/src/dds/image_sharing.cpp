@@ -11,6 +11,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "fast_dds.hpp"
 #include "fnv1a.hpp"
 #include "panvo/interfaces/message_type.hpp"
 #include "participant_qos.hpp"
@@ -19,8 +20,6 @@
 #include "shared_segment.hpp"
 
 namespace panvo::runtime::dds {
-
-namespace fdds = eprosima::fastdds::dds;
 
 namespace {
 
@@ -50,7 +49,7 @@ void share_in_neighbourhood(EndpointQos& qos) {
 
 // Data sharing needs a type of bounded size, for which Fast DDS reserves at most the bound per message. With this
 // policy it allocates what each message needs.
-constexpr auto kAnySize = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+constexpr auto kAnySize = rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "fast_dds.hpp"
 #include "panvo/runtime/bridge.hpp"
 
 namespace panvo::runtime::dds {
@@ -30,11 +31,11 @@ std::optional<std::string> sharing_warning(const DdsSettings& settings);
 /// DDS's own identifier is derived from the network card: it would also match processes in different containers, whose
 /// messages would be lost, and other builds with an incompatible memory layout.
 std::uint64_t sharing_neighbourhood();
-bool is_in_neighbourhood(const eprosima::fastdds::dds::DataSharingQosPolicy& sharing);
+bool is_in_neighbourhood(const fdds::DataSharingQosPolicy& sharing);
 
 /// Makes an endpoint share memory where possible. Readers still receive messages of any size from other writers.
-void share(eprosima::fastdds::dds::DataWriterQos& qos);
-void share(eprosima::fastdds::dds::DataReaderQos& qos);
+void share(fdds::DataWriterQos& qos);
+void share(fdds::DataReaderQos& qos);
 
 /// Upper bound of the memory reserved by a writer with history `depth` for messages of up to `max_size` bytes.
 std::uint64_t room_for_writer(std::size_t depth, std::uint32_t max_size);

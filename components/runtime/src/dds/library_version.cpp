@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "library_version.hpp"
 
-#include <fastrtps/config.h>
+#include "fast_dds.hpp"
 
 namespace panvo::runtime::dds {
 
-const char* library_version() { return FASTRTPS_VERSION_STR; }
+const char* library_version() { return kFastDdsVersion; }
 
 }  // namespace panvo::runtime::dds

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastdds/rtps/common/Guid.h>
-
 #include <functional>
 #include <map>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "fast_dds.hpp"
+
 namespace panvo::runtime::dds {
 
 /// Readers and writers of this process by topic, for announcing which node owns which. Thread-safe.
 class LocalEndpoints {
  public:
-  using Guid = eprosima::fastrtps::rtps::GUID_t;
+  using Guid = rtps::GUID_t;
 
   void add(const std::string& wire_name, const Guid& guid, bool is_writer);
   void remove(const Guid& guid);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastdds/rtps/common/Guid.h>
-#include <fastdds/rtps/common/InstanceHandle.h>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 
@@ -14,14 +12,15 @@
 #include <set>
 #include <utility>
 
+#include "fast_dds.hpp"
 #include "own_participants.hpp"
 
 namespace panvo::runtime::dds {
 
 /// The readers of other processes matched with a writer. Thread-safe.
-class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
+class MatchedReaders final : public fdds::DataWriterListener {
  public:
-  using Guid = eprosima::fastrtps::rtps::GUID_t;
+  using Guid = rtps::GUID_t;
 
   bool contains(const Guid& reader) const {
     const std::lock_guard lock(mutex_);
@@ -45,9 +44,8 @@ class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
   }
 
  private:
-  void on_publication_matched(eprosima::fastdds::dds::DataWriter*,
-                              const eprosima::fastdds::dds::PublicationMatchedStatus& status) override {
-    const auto reader = eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle);
+  void on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) override {
+    const auto reader = rtps::iHandle2GUID(status.last_subscription_handle);
     if (is_of_this_process(reader)) return;
     const std::lock_guard lock(mutex_);
     if (status.current_count_change > 0) {

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "fast_dds.hpp"
 #include "names.hpp"
 #include "panvo/runtime/names.hpp"
 #include "reader.hpp"
@@ -90,7 +91,7 @@ void NodeGraph::tell() {
   writer_->write(Sample::from_bytes(nullptr, "", encode(info, is_humbles ? kHumbleGidSize : kGidSize), 0));
 }
 
-void NodeGraph::nodes_reader(const eprosima::fastrtps::rtps::GUID_t& reader, Discovery::NodesReader what) {
+void NodeGraph::nodes_reader(const rtps::GUID_t& reader, Discovery::NodesReader what) {
   const std::lock_guard lock(format_mutex_);
   const bool had_humble = !humble_readers_.empty();
   humble_readers_.erase(reader);
@@ -134,7 +135,7 @@ void NodeGraph::take(const SamplePtr& sample) {
   warn_of_clashes();
 }
 
-void NodeGraph::participant_gone(const eprosima::fastrtps::rtps::GuidPrefix_t& prefix) {
+void NodeGraph::participant_gone(const rtps::GuidPrefix_t& prefix) {
   const std::lock_guard lock(mutex_);
   others_.erase(prefix);
 }

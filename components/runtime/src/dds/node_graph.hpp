@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "discovery.hpp"
+#include "fast_dds.hpp"
 #include "local_endpoints.hpp"
 #include "node_info.hpp"
 #include "notifier.hpp"
@@ -35,8 +36,8 @@ class NodeGraph : public std::enable_shared_from_this<NodeGraph> {
 
   void set_nodes(std::vector<NodeDescription> nodes);
   /// To be called before the reader meets our writer.
-  void nodes_reader(const eprosima::fastrtps::rtps::GUID_t& reader, Discovery::NodesReader what);
-  void participant_gone(const eprosima::fastrtps::rtps::GuidPrefix_t& prefix);
+  void nodes_reader(const rtps::GUID_t& reader, Discovery::NodesReader what);
+  void participant_gone(const rtps::GuidPrefix_t& prefix);
   std::vector<GraphNode> nodes() const;
 
  private:
@@ -52,12 +53,12 @@ class NodeGraph : public std::enable_shared_from_this<NodeGraph> {
 
   mutable std::mutex mutex_;
   std::vector<NodeDescription> own_nodes_;
-  std::map<eprosima::fastrtps::rtps::GuidPrefix_t, NodeInfo> others_;
+  std::map<rtps::GuidPrefix_t, NodeInfo> others_;
   NodeInfo::Guid own_participant_;
   bool will_tell_ = false;
 
   std::mutex format_mutex_;  // held while a message is written; guards the next three, except for the writer's creation
-  std::set<eprosima::fastrtps::rtps::GUID_t> humble_readers_, later_readers_;
+  std::set<rtps::GUID_t> humble_readers_, later_readers_;
   std::unique_ptr<Writer> writer_;
   std::unique_ptr<BridgeReader> reader_;  // its callback is take()
 };

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "fast_dds.hpp"
+
 namespace panvo::runtime::dds {
 namespace {
 
@@ -150,7 +152,7 @@ std::optional<NodeInfo> decode_node_info(std::span<const std::uint8_t> bytes) {
   return info ? info : decode_with(bytes, kHumbleGidSize);
 }
 
-std::string hexadecimal(const eprosima::fastrtps::rtps::GUID_t& guid) {
+std::string hexadecimal(const rtps::GUID_t& guid) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text;
   for (const auto byte : bytes_of(guid)) {

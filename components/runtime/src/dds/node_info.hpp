@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastdds/rtps/common/Guid.h>
-
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "fast_dds.hpp"
 #include "panvo/interfaces/message_type.hpp"
 
 namespace panvo::runtime::dds {
 
 /// Contents of a ros_discovery_info message: the nodes of a participant and their endpoints.
 struct NodeInfo {
-  using Guid = eprosima::fastrtps::rtps::GUID_t;
+  using Guid = rtps::GUID_t;
   struct Node {
     std::string name_space, name;
     std::vector<Guid> readers, writers;
@@ -35,6 +34,6 @@ interfaces::Bytes encode(const NodeInfo& info, std::size_t gid_size);
 std::optional<NodeInfo> decode_node_info(std::span<const std::uint8_t> bytes);
 
 /// The 16 bytes of a GUID in hexadecimal.
-std::string hexadecimal(const eprosima::fastrtps::rtps::GUID_t& guid);
+std::string hexadecimal(const rtps::GUID_t& guid);
 
 }  // namespace panvo::runtime::dds

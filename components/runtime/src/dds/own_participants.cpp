@@ -5,12 +5,14 @@
 #include <set>
 #include <shared_mutex>
 
+#include "fast_dds.hpp"
+
 namespace panvo::runtime::dds {
 namespace {
 
 struct OwnParticipants {
   std::shared_mutex mutex;
-  std::set<eprosima::fastrtps::rtps::GuidPrefix_t> prefixes;
+  std::set<rtps::GuidPrefix_t> prefixes;
 };
 
 OwnParticipants& own_participants() {
@@ -20,13 +22,13 @@ OwnParticipants& own_participants() {
 
 }  // namespace
 
-void add_own_participant(const eprosima::fastrtps::rtps::GUID_t& participant) {
+void add_own_participant(const rtps::GUID_t& participant) {
   auto& own = own_participants();
   const std::lock_guard lock(own.mutex);
   own.prefixes.insert(participant.guidPrefix);
 }
 
-bool is_of_this_process(const eprosima::fastrtps::rtps::GUID_t& endpoint) {
+bool is_of_this_process(const rtps::GUID_t& endpoint) {
   auto& own = own_participants();
   const std::shared_lock lock(own.mutex);
   return own.prefixes.contains(endpoint.guidPrefix);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastdds/rtps/common/Guid.h>
+#include "fast_dds.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -9,7 +9,7 @@ namespace panvo::runtime::dds {
 /// numbers, which Fast DDS uses for this; DDS Security replaces them by a hash of the keys. Thread-safe.
 ///
 /// A participant stays registered after its destruction, as its events arrive later.
-void add_own_participant(const eprosima::fastrtps::rtps::GUID_t& participant);
-bool is_of_this_process(const eprosima::fastrtps::rtps::GUID_t& endpoint);
+void add_own_participant(const rtps::GUID_t& participant);
+bool is_of_this_process(const rtps::GUID_t& endpoint);
 
 }  // namespace panvo::runtime::dds

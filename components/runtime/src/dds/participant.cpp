@@ -5,6 +5,7 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include "fast_dds.hpp"
 #include "image_sharing.hpp"
 #include "names.hpp"
 #include "own_participants.hpp"
@@ -13,8 +14,6 @@
 #include "udp_transport.hpp"
 
 namespace panvo::runtime::dds {
-
-namespace fdds = eprosima::fastdds::dds;
 
 Participant::Participant(const DdsSettings& settings, Hears hears, std::shared_ptr<Discovery> discovery,
                          std::shared_ptr<LocalEndpoints> endpoints)

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "discovery.hpp"
+#include "fast_dds.hpp"
 #include "local_endpoints.hpp"
 #include "names.hpp"
 #include "panvo/runtime/bridge.hpp"
@@ -34,10 +35,10 @@ class Participant : public std::enable_shared_from_this<Participant> {
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
-  eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
-  eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
+  fdds::Publisher& publisher() { return *publisher_; }
+  fdds::Subscriber& subscriber() { return *subscriber_; }
 
-  eprosima::fastrtps::rtps::GUID_t guid() const { return participant_->guid(); }
+  rtps::GUID_t guid() const { return participant_->guid(); }
   /// Largest serialised size of messages of that type that are shared on this machine; 0: no sharing.
   std::uint32_t max_shared(const std::string& wire_type_name) const;
   const Limits& limits() const noexcept { return settings_.limits; }
@@ -48,49 +49,43 @@ class Participant : public std::enable_shared_from_this<Participant> {
   bool has_foreign_reader(const std::string& wire_name) const { return discovery_->has_foreign_reader(wire_name); }
 
   /// Whether an endpoint of another process is of Cyclone DDS.
-  bool is_of_cyclone(const eprosima::fastrtps::rtps::GUID_t& endpoint) const {
-    return discovery_->is_of_cyclone(endpoint.guidPrefix);
-  }
+  bool is_of_cyclone(const rtps::GUID_t& endpoint) const { return discovery_->is_of_cyclone(endpoint.guidPrefix); }
 
   /// Whether an endpoint of another process claims to be on this host; never with DDS Security. See same_host.hpp.
-  bool is_on_this_host(const eprosima::fastrtps::rtps::GUID_t& endpoint) const {
+  bool is_on_this_host(const rtps::GUID_t& endpoint) const {
     return is_on_same_host(guid(), endpoint) ||
            (tells_host(guid()) && discovery_->is_of_cyclone_here(endpoint.guidPrefix));
   }
 
   /// Creates an endpoint of a topic; nullptr if Fast DDS refuses it. `max_size`: largest message of an endpoint that
   /// shares memory; 0: no sharing. Readers do not receive what this participant writes, see remote_only_filter.hpp.
-  eprosima::fastdds::dds::DataWriter* make_writer(eprosima::fastdds::dds::Topic& topic,
-                                                  const eprosima::fastdds::dds::DataWriterQos& qos,
-                                                  eprosima::fastdds::dds::DataWriterListener& listener,
-                                                  std::uint32_t max_size = 0);
-  eprosima::fastdds::dds::DataReader* make_reader(eprosima::fastdds::dds::Topic& topic,
-                                                  const eprosima::fastdds::dds::DataReaderQos& qos,
-                                                  eprosima::fastdds::dds::DataReaderListener& listener,
-                                                  std::uint32_t max_size = 0);
+  fdds::DataWriter* make_writer(fdds::Topic& topic, const fdds::DataWriterQos& qos, fdds::DataWriterListener& listener,
+                                std::uint32_t max_size = 0);
+  fdds::DataReader* make_reader(fdds::Topic& topic, const fdds::DataReaderQos& qos, fdds::DataReaderListener& listener,
+                                std::uint32_t max_size = 0);
   /// Registry of its endpoints.
   LocalEndpoints& endpoints() { return *endpoints_; }
 
   /// Returns the topic of that name. Fast DDS allows one per participant; all its endpoints share it, and the last one
   /// deletes it. Throws ConfigError if it is open with another type.
-  std::shared_ptr<eprosima::fastdds::dds::Topic> topic(const WireTopic& topic);
+  std::shared_ptr<fdds::Topic> topic(const WireTopic& topic);
 
  private:
   void register_type(const std::string& wire_type_name);
   void delete_topic(const std::string& wire_name);
-  eprosima::fastdds::dds::ContentFilteredTopic* remote_only(eprosima::fastdds::dds::Topic& topic);
-  SampleDataType& type_of(const eprosima::fastdds::dds::Topic& topic) const;
+  fdds::ContentFilteredTopic* remote_only(fdds::Topic& topic);
+  SampleDataType& type_of(const fdds::Topic& topic) const;
 
   const DdsSettings settings_;
   const std::shared_ptr<Discovery> discovery_;  // used by Fast DDS until the participant is destroyed
   const std::shared_ptr<LocalEndpoints> endpoints_;
-  eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
-  eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
-  eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
+  fdds::DomainParticipant* participant_ = nullptr;
+  fdds::Publisher* publisher_ = nullptr;
+  fdds::Subscriber* subscriber_ = nullptr;
 
   struct OpenTopic {
-    eprosima::fastdds::dds::Topic* topic = nullptr;
-    eprosima::fastdds::dds::ContentFilteredTopic* remote_only = nullptr;  // for readers
+    fdds::Topic* topic = nullptr;
+    fdds::ContentFilteredTopic* remote_only = nullptr;  // for readers
     int users = 0;
   };
   std::mutex mutex_;

@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant_qos.hpp"
 
-#include <fastdds/rtps/attributes/ServerAttributes.h>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "environment_variable.hpp"
+#include "fast_dds_transports.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "security_qos.hpp"
 #include "udp_transport.hpp"
 
 namespace panvo::runtime::dds {
-
-namespace fdds = eprosima::fastdds::dds;
-using eprosima::fastrtps::types::ReturnCode_t;
-namespace rtps = eprosima::fastdds::rtps;
-using eprosima::fastrtps::rtps::IPLocator;
 
 namespace {
 
@@ -38,40 +33,61 @@ constexpr std::int32_t kBytesPerPeriod = 128 * 1024;
 // periodic announcement. The default of 3 s was reached in one start of ten.
 constexpr std::int32_t kAnnouncementPeriodNs = 500'000'000;
 
-eprosima::fastdds::rtps::RemoteServerList_t servers() {
-  eprosima::fastdds::rtps::RemoteServerList_t servers;
-  rtps::load_environment_server_info(servers);
-  return servers;
-}
-
-// With ROS_DISCOVERY_SERVER, Fast DDS makes a participant a client, which learns only of matching endpoints.
-void hear_of_all_topics(eprosima::fastrtps::rtps::DiscoverySettings& discovery) {
-  if (discovery.discoveryProtocol != eprosima::fastrtps::rtps::DiscoveryProtocol_t::SIMPLE) return;  // set by a profile
-  discovery.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::SUPER_CLIENT;
-  discovery.m_DiscoveryServers = servers();
-}
-
 // As rmw_fastrtps: number of participants that are looked for on a host without multicast.
 constexpr std::uint32_t kParticipantsPerPeer = 32;
 
-/// Address of a host; its port is left open. Throws ConfigError.
-eprosima::fastrtps::rtps::Locator_t locator_of(const std::string& host) {
-  const auto addresses = IPLocator::resolveNameDNS(host).first;
+constexpr const char* kServersVariable = "ROS_DISCOVERY_SERVER";
+
+/// Address of a host; its port is left open. Throws ConfigError that names the environment variable with the host.
+rtps::Locator_t locator_of(const std::string& host, const char* variable = "ROS_STATIC_PEERS") {
+  const auto addresses = rtps::IPLocator::resolveNameDNS(host).first;
   if (addresses.empty()) {
     throw ConfigError(
-        fmt::format("ROS_STATIC_PEERS: the host {} is unknown; correct its name, or write its IPv4 address", host));
+        fmt::format("{}: the host {} is unknown; correct its name, or write its IPv4 address", variable, host));
   }
-  eprosima::fastrtps::rtps::Locator_t locator;
-  IPLocator::setIPv4(locator, *addresses.begin());
+  rtps::Locator_t locator;
+  rtps::IPLocator::setIPv4(locator, *addresses.begin());
   return locator;
+}
+
+#ifdef PANVO_FAST_DDS_3
+/// Of "HOST:PORT;HOST:PORT"; an entry may be empty.
+auto servers() {
+  constexpr std::uint32_t kDefaultPort = 11811;
+  const std::regex form(R"((?:UDPv4:)?\[?([^\]:\s]+)\]?(?::(\d{1,5}))?)");
+  decltype(rtps::DiscoverySettings::m_DiscoveryServers) servers;
+  std::istringstream entries(environment_variable(kServersVariable));
+  for (std::string entry; std::getline(entries, entry, ';');) {
+    if (entry.empty()) continue;
+    std::smatch parts;
+    if (!std::regex_match(entry, parts, form))
+      throw ConfigError(fmt::format("{}: '{}' is not an address; write HOST:PORT", kServersVariable, entry));
+    auto server = locator_of(parts[1], kServersVariable);
+    server.port = parts[2].matched ? static_cast<std::uint32_t>(std::stoul(parts[2])) : kDefaultPort;
+    servers.push_back(server);
+  }
+  return servers;
+}
+#else
+auto servers() {
+  rtps::RemoteServerList_t servers;
+  rtps::load_environment_server_info(servers);
+  return servers;
+}
+#endif
+
+// With ROS_DISCOVERY_SERVER, Fast DDS makes a participant a client, which learns only of matching endpoints.
+void hear_of_all_topics(rtps::DiscoverySettings& discovery) {
+  if (discovery.discoveryProtocol != DiscoveryProtocol::SIMPLE) return;  // set by a profile
+  discovery.discoveryProtocol = DiscoveryProtocol::SUPER_CLIENT;
+  discovery.m_DiscoveryServers = servers();
 }
 
 void listen_to_no_multicast(fdds::DomainParticipantQos& qos) {
   auto& builtin = qos.wire_protocol().builtin;
   builtin.metatrafficMulticastLocatorList.clear();
   // Without a unicast locator, Fast DDS adds its default ones, multicast included.
-  if (builtin.metatrafficUnicastLocatorList.empty())
-    builtin.metatrafficUnicastLocatorList.push_back(eprosima::fastrtps::rtps::Locator_t());
+  if (builtin.metatrafficUnicastLocatorList.empty()) builtin.metatrafficUnicastLocatorList.push_back(rtps::Locator_t());
 }
 
 /// Discovery as in rmw_fastrtps, except that named peers do not switch multicast off.
@@ -79,15 +95,15 @@ void apply_range(const DdsSettings& settings, fdds::DomainParticipantQos& qos) {
   auto& builtin = qos.wire_protocol().builtin;
   const bool is_local = settings.range == DiscoveryRange::kLocalhost || settings.range == DiscoveryRange::kLoopback;
   if (settings.range == DiscoveryRange::kOff) {
-    builtin.discovery_config.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::NONE;
+    builtin.discovery_config.discoveryProtocol = DiscoveryProtocol::NONE;
     return;
   }
   if (settings.range == DiscoveryRange::kSystemDefault) return;
   if (is_local) {
     listen_to_no_multicast(qos);
   } else if (!settings.peers.empty() && builtin.initialPeersList.empty()) {
-    eprosima::fastrtps::rtps::Locator_t multicast;
-    IPLocator::setIPv4(multicast, "239.255.0.1");
+    rtps::Locator_t multicast;
+    rtps::IPLocator::setIPv4(multicast, "239.255.0.1");
     multicast.port = qos.wire_protocol().port.getMulticastPort(static_cast<std::uint32_t>(settings.domain));
     builtin.initialPeersList.push_back(multicast);
   }
@@ -160,7 +176,7 @@ void load_profiles(const DdsSettings& settings) {
     throw ConfigError(
         fmt::format("{}: the DDS profile file cannot be read; correct or omit its path", settings.profiles));
   }
-  if (factory->load_XML_profiles_file(settings.profiles) != ReturnCode_t::RETCODE_OK) {
+  if (factory->load_XML_profiles_file(settings.profiles) != kOk) {
     throw ConfigError(
         fmt::format("{}: is not a valid Fast DDS profile file (see the messages above); see config/dds for an example",
                     settings.profiles));
@@ -194,7 +210,7 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears he
 
   // rmw also sends the terminating zero.
   constexpr std::string_view kEnclave("enclave=/;\0", 11);
-  qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(kEnclave.begin(), kEnclave.end()));
+  qos.user_data().setValue(std::vector<rtps::octet>(kEnclave.begin(), kEnclave.end()));
 
   const bool has_keys = apply_security(security_settings_from_environment(), qos);
 
@@ -202,14 +218,13 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears he
   const auto default_period =
       fdds::PARTICIPANT_QOS_DEFAULT.wire_protocol().builtin.discovery_config.leaseDuration_announcementperiod;
   if (discovery.leaseDuration_announcementperiod == default_period) {
-    discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(0, kAnnouncementPeriodNs);
+    discovery.leaseDuration_announcementperiod = Duration(0, kAnnouncementPeriodNs);
   }
   if (hears == Hears::kAll && has_discovery_server()) hear_of_all_topics(discovery);
   // With security, a GUID does not identify the process and may match another one by chance.
   if (has_keys) return qos;
   auto& flags = discovery.ignoreParticipantFlags;
-  flags = static_cast<eprosima::fastrtps::rtps::ParticipantFilteringFlags_t>(
-      flags | eprosima::fastrtps::rtps::ParticipantFilteringFlags_t::FILTER_SAME_PROCESS);
+  flags = static_cast<ParticipantFilteringFlags>(flags | ParticipantFilteringFlags::FILTER_SAME_PROCESS);
   return qos;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "fast_dds.hpp"
 #include "panvo/runtime/bridge.hpp"
 
 namespace panvo::runtime::dds {
@@ -41,6 +42,6 @@ bool has_discovery_server();
 
 /// QoS of a participant, from a profile or our defaults: UDP with buffers for images, ROS 2's user data, and ignoring
 /// other participants of the same process as far as Fast DDS can identify them (see own_participants.hpp).
-eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears hears);
+fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears hears);
 
 }  // namespace panvo::runtime::dds

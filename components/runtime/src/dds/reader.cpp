@@ -8,15 +8,13 @@
 
 #include "../clocks.hpp"
 #include "endpoint_qos.hpp"
+#include "fast_dds.hpp"
 #include "image_sharing.hpp"
 #include "node_info.hpp"
 #include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime::dds {
-
-namespace fdds = eprosima::fastdds::dds;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 namespace {
 
@@ -71,7 +69,7 @@ void Reader::on_data_available(fdds::DataReader* reader) {
   while (!closed_) {
     fdds::SampleInfo info;
     Incoming incoming{.wanted = shares_ ? description_.type : nullptr};
-    const bool is_taken = reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
+    const bool is_taken = reader->take_next_sample(&incoming, &info) == kOk;
     // Fast DDS drops a sample overwritten while being read and continues with the next.
     overwritten_ += incoming.reads - (is_taken && info.valid_data ? 1 : 0);
     if (!is_taken) return;
@@ -112,7 +110,7 @@ void Reader::deliver(Incoming incoming, const fdds::SampleInfo& info) {
   }
 }
 
-Sample::Sender Reader::sender(const eprosima::fastrtps::rtps::GUID_t& writer) {
+Sample::Sender Reader::sender(const rtps::GUID_t& writer) {
   if (!last_sender_ || last_writer_ != writer) {
     last_writer_ = writer;
     last_sender_ = std::make_shared<const std::string>(hexadecimal(writer));
@@ -121,7 +119,7 @@ Sample::Sender Reader::sender(const eprosima::fastrtps::rtps::GUID_t& writer) {
 }
 
 void Reader::on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& status) {
-  if (is_of_this_process(eprosima::fastrtps::rtps::iHandle2GUID(status.last_publication_handle))) return;
+  if (is_of_this_process(rtps::iHandle2GUID(status.last_publication_handle))) return;
   matched_writers_ += static_cast<std::size_t>(status.current_count_change);  // unsigned wrap-around intended
 }
 
@@ -133,7 +131,7 @@ void Reader::on_sample_lost(fdds::DataReader*, const fdds::SampleLostStatus& sta
   lost_ = static_cast<std::uint64_t>(status.total_count);
 }
 
-void Reader::on_sample_rejected(fdds::DataReader*, const eprosima::fastrtps::SampleRejectedStatus& status) {
+void Reader::on_sample_rejected(fdds::DataReader*, const fdds::SampleRejectedStatus& status) {
   // A reliable writer resends a rejected sample.
   if (description_.qos.requested == interfaces::Reliability::kBestEffort) rejected_ = status.total_count;
 }

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 
+#include "fast_dds.hpp"
 #include "notifier.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant.hpp"
@@ -21,7 +22,7 @@ namespace panvo::runtime::dds {
 
 /// Receives a topic from other processes. Samples are delivered on Fast DDS's receiving thread, one at a time. The
 /// callback should be fast and must not destroy this reader.
-class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataReaderListener {
+class Reader final : public BridgeReader, private fdds::DataReaderListener {
  public:
   using OnSample = std::function<void(SamplePtr)>;
 
@@ -34,29 +35,26 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
   BridgeReaderCounters counters() const override;
 
  private:
-  void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
-  void on_subscription_matched(eprosima::fastdds::dds::DataReader* reader,
-                               const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
-  void on_requested_incompatible_qos(eprosima::fastdds::dds::DataReader* reader,
-                                     const eprosima::fastdds::dds::RequestedIncompatibleQosStatus& status) override;
-  void on_sample_lost(eprosima::fastdds::dds::DataReader* reader,
-                      const eprosima::fastdds::dds::SampleLostStatus& status) override;
-  void on_sample_rejected(eprosima::fastdds::dds::DataReader* reader,
-                          const eprosima::fastrtps::SampleRejectedStatus& status) override;
-  void deliver(Incoming incoming, const eprosima::fastdds::dds::SampleInfo& info);
+  void on_data_available(fdds::DataReader* reader) override;
+  void on_subscription_matched(fdds::DataReader* reader, const fdds::SubscriptionMatchedStatus& status) override;
+  void on_requested_incompatible_qos(fdds::DataReader* reader,
+                                     const fdds::RequestedIncompatibleQosStatus& status) override;
+  void on_sample_lost(fdds::DataReader* reader, const fdds::SampleLostStatus& status) override;
+  void on_sample_rejected(fdds::DataReader* reader, const fdds::SampleRejectedStatus& status) override;
+  void deliver(Incoming incoming, const fdds::SampleInfo& info);
   /// GID of the writer as text, shared by consecutive messages of the same writer.
-  Sample::Sender sender(const eprosima::fastrtps::rtps::GUID_t& writer);
+  Sample::Sender sender(const rtps::GUID_t& writer);
 
   const TopicDescription description_;
   const OnSample on_sample_;
   const std::shared_ptr<Participant> participant_;
   const std::shared_ptr<Notifier> notifier_;
-  const std::shared_ptr<eprosima::fastdds::dds::Topic> topic_;
+  const std::shared_ptr<fdds::Topic> topic_;
 
   std::mutex delivery_mutex_;  // held during delivery of a sample
   bool closed_ = false;
   RateLimit rate_limit_;
-  eprosima::fastrtps::rtps::GUID_t last_writer_;
+  rtps::GUID_t last_writer_;
   Sample::Sender last_sender_;
 
   std::atomic<std::size_t> matched_writers_ = 0;
@@ -64,7 +62,7 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
   std::atomic<std::uint64_t> too_large_ = 0, too_fast_ = 0;
   bool shares_ = false;  // messages may be in memory that the writer reuses
   std::optional<SharedSegment> segment_;
-  eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // uses the members above
+  fdds::DataReader* reader_ = nullptr;  // uses the members above
 };
 
 }  // namespace panvo::runtime::dds

@@ -3,11 +3,9 @@
 
 #include <fastdds/dds/topic/IContentFilter.hpp>
 
-namespace panvo::runtime::dds {
+#include "fast_dds.hpp"
 
-namespace fdds = eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::GUID_t;
-using eprosima::fastrtps::types::ReturnCode_t;
+namespace panvo::runtime::dds {
 
 namespace {
 
@@ -17,17 +15,17 @@ class RemoteOnlyFilter final : fdds::IContentFilter, fdds::IContentFilterFactory
   fdds::IContentFilterFactory& factory() { return *this; }
 
  private:
-  bool evaluate(const SerializedPayload&, const FilterSampleInfo& info, const GUID_t& reader) const override {
+  bool evaluate(const SerializedPayload&, const FilterSampleInfo& info, const rtps::GUID_t& reader) const override {
     return info.sample_identity.writer_guid().guidPrefix != reader.guidPrefix;
   }
 
-  ReturnCode_t create_content_filter(const char*, const char*, const fdds::TopicDataType*, const char*,
-                                     const ParameterSeq&, fdds::IContentFilter*& filter) override {
+  ReturnCode create_content_filter(const char*, const char*, const fdds::TopicDataType*, const char*,
+                                   const ParameterSeq&, fdds::IContentFilter*& filter) override {
     filter = this;
-    return ReturnCode_t::RETCODE_OK;
+    return kOk;
   }
 
-  ReturnCode_t delete_content_filter(const char*, fdds::IContentFilter*) override { return ReturnCode_t::RETCODE_OK; }
+  ReturnCode delete_content_filter(const char*, fdds::IContentFilter*) override { return kOk; }
 };
 
 }  // namespace
@@ -37,8 +35,8 @@ fdds::IContentFilterFactory& remote_only_filters() {
   return filter.factory();
 }
 
-eprosima::fastrtps::rtps::WriteParams written_by(const GUID_t& writer) {
-  eprosima::fastrtps::rtps::WriteParams params;
+rtps::WriteParams written_by(const rtps::GUID_t& writer) {
+  rtps::WriteParams params;
   params.sample_identity().writer_guid(writer);
   return params;
 }

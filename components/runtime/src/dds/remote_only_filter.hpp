@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastdds/rtps/common/WriteParams.h>
 #include <fastdds/dds/topic/IContentFilterFactory.hpp>
+
+#include "fast_dds.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -17,9 +18,9 @@ inline constexpr const char* kRemoteOnlyClass = "PANVO_REMOTE_ONLY";
 inline constexpr const char* kRemoteOnlyExpression = "remote";  // an empty one would switch the filter off
 
 /// Factory of the filter class. Lives as long as the process.
-eprosima::fastdds::dds::IContentFilterFactory& remote_only_filters();
+fdds::IContentFilterFactory& remote_only_filters();
 
 /// Parameters of a message that state its writer. They are not sent.
-eprosima::fastrtps::rtps::WriteParams written_by(const eprosima::fastrtps::rtps::GUID_t& writer);
+rtps::WriteParams written_by(const rtps::GUID_t& writer);
 
 }  // namespace panvo::runtime::dds

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastdds/rtps/common/Guid.h>
-#include <fastdds/rtps/common/Locator.h>
-
 #include <vector>
+
+#include "fast_dds.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -12,12 +11,12 @@ namespace panvo::runtime::dds {
 
 /// Whether GUIDs tell the host: a Fast DDS GUID starts with the vendor's number and a number derived from the host's
 /// addresses. DDS Security puts a hash there.
-bool tells_host(const eprosima::fastrtps::rtps::GUID_t& own);
+bool tells_host(const rtps::GUID_t& own);
 
 /// Whether `other` claims to be on the host of `own`. GUIDs of other vendors never match.
-bool is_on_same_host(const eprosima::fastrtps::rtps::GUID_t& own, const eprosima::fastrtps::rtps::GUID_t& other);
+bool is_on_same_host(const rtps::GUID_t& own, const rtps::GUID_t& other);
 
 /// Whether a participant that listens at these addresses is on this host: all of them belong to it. False for none.
-bool are_on_this_host(const std::vector<eprosima::fastrtps::rtps::Locator_t>& addresses);
+bool are_on_this_host(const std::vector<rtps::Locator_t>& addresses);
 
 }  // namespace panvo::runtime::dds

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sample_data_type.hpp"
 
-#include <fastdds/rtps/common/SerializedPayload.h>
-
 #include <algorithm>
 #include <exception>
 #include <new>
 
+#include "fast_dds.hpp"
+
 namespace panvo::runtime::dds {
 namespace {
 
-constexpr std::size_t kEncapsulationSize = eprosima::fastrtps::rtps::SerializedPayload_t::representation_header_size;
+constexpr std::size_t kEncapsulationSize = rtps::SerializedPayload_t::representation_header_size;
 
 // Initial size only; payloads grow as needed.
 constexpr std::uint32_t kInitialPayloadSize = 256;
@@ -40,37 +40,32 @@ void Outgoing::write_to(std::span<std::uint8_t> out) const {
 }
 
 SampleDataType::SampleDataType(const std::string& wire_type_name, std::size_t max_received)
-    : max_received_(max_received) {
-  setName(wire_type_name.c_str());
+    : KeylessType(wire_type_name), max_received_(max_received) {
   bound(0);
-  m_isGetKeyDefined = false;
-  // Types match by name, as in ROS 2; no type objects.
-  auto_fill_type_object(false);
-  auto_fill_type_information(false);
 }
 
 void SampleDataType::bound(std::uint32_t max_size) {
   is_bounded_ = max_size > 0;
-  m_typeSize = is_bounded_ ? max_size : kInitialPayloadSize;
+  set_max_size(is_bounded_ ? max_size : kInitialPayloadSize);
 }
 
-bool SampleDataType::serialize(void* outgoing, eprosima::fastrtps::rtps::SerializedPayload_t* payload) {
+bool SampleDataType::write(const void* outgoing, rtps::SerializedPayload_t& payload) {
   const auto& message = *static_cast<const Outgoing*>(outgoing);
   const std::size_t size = message.size();
-  if (size < kEncapsulationSize || size > payload->max_size) return false;
+  if (size < kEncapsulationSize || size > payload.max_size) return false;
   try {
-    message.write_to({payload->data, size});
+    message.write_to({payload.data, size});
   } catch (const std::exception&) {
     return false;  // exceptions must not reach Fast DDS; the message changed while being sent
   }
-  payload->length = static_cast<std::uint32_t>(size);
-  payload->encapsulation = payload->data[1];
+  payload.length = static_cast<std::uint32_t>(size);
+  payload.encapsulation = payload.data[1];
   return true;
 }
 
-bool SampleDataType::deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* incoming) {
+bool SampleDataType::read(rtps::SerializedPayload_t& payload, void* incoming) {
   auto& target = *static_cast<Incoming*>(incoming);
-  const std::span<const std::uint8_t> bytes(payload->data, payload->length);
+  const std::span<const std::uint8_t> bytes(payload.data, payload.length);
   target.too_large = bytes.size() > max_received_;
   target.readable = !target.too_large && has_xcdr1_encapsulation(bytes);
   if (target.readable) {  // otherwise the reader counts it
@@ -85,9 +80,8 @@ bool SampleDataType::deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* 
   return true;
 }
 
-std::function<std::uint32_t()> SampleDataType::getSerializedSizeProvider(void* outgoing) {
-  const auto size = static_cast<std::uint32_t>(static_cast<const Outgoing*>(outgoing)->size());
-  return [size] { return size; };
+std::uint32_t SampleDataType::size_of(const void* outgoing) {
+  return static_cast<std::uint32_t>(static_cast<const Outgoing*>(outgoing)->size());
 }
 
 }  // namespace panvo::runtime::dds

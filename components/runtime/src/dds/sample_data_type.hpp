@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "fast_dds.hpp"
 #include "panvo/runtime/sample.hpp"
 
 namespace panvo::runtime::dds {
@@ -42,7 +43,7 @@ struct Incoming {
 
 /// The only data type, used for all topics: Fast DDS handles bytes and never a message class, so no plugin code is
 /// registered with it and plugins can be unloaded. Keyless. Messages larger than `max_received` are not read.
-class SampleDataType final : public eprosima::fastdds::dds::TopicDataType {
+class SampleDataType final : public KeylessType {
  public:
   explicit SampleDataType(const std::string& wire_type_name,
                           std::size_t max_received = std::numeric_limits<std::size_t>::max());
@@ -50,15 +51,15 @@ class SampleDataType final : public eprosima::fastdds::dds::TopicDataType {
   /// Sets the largest message of endpoints created from now on that reserve memory; 0: memory as needed.
   void bound(std::uint32_t max_size);
 
-  bool serialize(void* outgoing, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
-  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* incoming) override;
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* outgoing) override;
-  void* createData() override { return new Incoming; }
-  void deleteData(void* incoming) override { delete static_cast<Incoming*>(incoming); }
-  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
   bool is_bounded() const override { return is_bounded_; }
 
  private:
+  bool write(const void* outgoing, rtps::SerializedPayload_t& payload) override;
+  bool read(rtps::SerializedPayload_t& payload, void* incoming) override;
+  std::uint32_t size_of(const void* outgoing) override;
+  void* make() override { return new Incoming; }
+  void drop(void* incoming) override { delete static_cast<Incoming*>(incoming); }
+
   bool is_bounded_ = false;
   const std::size_t max_received_;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "security_qos.hpp"
 
-#include <fastrtps/config.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <array>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "environment_variable.hpp"
+#include "fast_dds.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime::dds {
@@ -67,7 +67,7 @@ SecuritySettings security_settings_from_environment() {
   return settings;
 }
 
-bool apply_security(const SecuritySettings& settings, eprosima::fastdds::dds::DomainParticipantQos& qos) {
+bool apply_security(const SecuritySettings& settings, fdds::DomainParticipantQos& qos) {
   if (!settings.is_enabled) return false;
   if (!kIsBuiltIn)
     throw ConfigError("security is requested, but this Fast DDS was built without it; use a build with -DSECURITY=ON");

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "fast_dds.hpp"
+
 namespace panvo::runtime::dds {
 
 /// Keystore and enclave from ROS 2's environment variables ROS_SECURITY_KEYSTORE, ROS_SECURITY_ENABLE ("true"),
@@ -20,6 +22,6 @@ SecuritySettings security_settings_from_environment();
 /// Configures DDS Security (authentication, access control, encryption) from a keystore in SROS 2's layout, and marks
 /// the participant with its enclave. Returns whether security was applied. Throws ConfigError naming a missing file or
 /// a private key readable by others.
-bool apply_security(const SecuritySettings& settings, eprosima::fastdds::dds::DomainParticipantQos& qos);
+bool apply_security(const SecuritySettings& settings, fdds::DomainParticipantQos& qos);
 
 }  // namespace panvo::runtime::dds

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service_client.hpp"
 
-#include <fastdds/rtps/common/WriteParams.h>
 #include <spdlog/fmt/fmt.h>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
@@ -11,6 +10,7 @@
 
 #include "cyclone_header.hpp"
 #include "endpoint_qos.hpp"
+#include "fast_dds.hpp"
 #include "fnv1a.hpp"
 #include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
@@ -19,8 +19,6 @@
 
 namespace panvo::runtime::dds {
 
-namespace fdds = eprosima::fastdds::dds;
-using eprosima::fastrtps::types::ReturnCode_t;
 using std::chrono::steady_clock;
 
 namespace {
@@ -34,14 +32,14 @@ constexpr std::chrono::milliseconds kIntroduction{250};
 constexpr std::int64_t kOfCyclone = std::int64_t{1} << 62;
 
 /// Identifies a client by the hash of its writer's GUID.
-std::uint64_t client_number(const eprosima::fastrtps::rtps::GUID_t& writer) {
+std::uint64_t client_number(const rtps::GUID_t& writer) {
   const auto bytes = [](const auto& value) {
     return std::string_view(reinterpret_cast<const char*>(value), sizeof(value));
   };
   return fnv1a(bytes(writer.entityId.value), fnv1a(bytes(writer.guidPrefix.value)));
 }
 
-std::int64_t number(const eprosima::fastrtps::rtps::SampleIdentity& identity) {
+std::int64_t number(const rtps::SampleIdentity& identity) {
   return static_cast<std::int64_t>(identity.sequence_number().to64long());
 }
 
@@ -95,16 +93,16 @@ bool ServiceClient::is_of_cyclone() const {
 }
 
 std::optional<std::int64_t> ServiceClient::send(const interfaces::Bytes& request) {
-  eprosima::fastrtps::rtps::WriteParams params;
+  rtps::WriteParams params;
   params.related_sample_identity().writer_guid(reader_->guid());
   if (!is_of_cyclone()) {
     Outgoing outgoing(request);
-    return writer_->write(&outgoing, params) ? std::optional(number(params.sample_identity())) : std::nullopt;
+    return write(*writer_, &outgoing, params) ? std::optional(number(params.sample_identity())) : std::nullopt;
   }
   const CycloneHeader header{client_number(writer_->guid()), ++last_of_cyclone_};
   const auto bytes = with_header(header, request);
   Outgoing outgoing(bytes);
-  return writer_->write(&outgoing, params) ? std::optional(kOfCyclone + header.number) : std::nullopt;
+  return write(*writer_, &outgoing, params) ? std::optional(kOfCyclone + header.number) : std::nullopt;
 }
 
 std::optional<interfaces::Bytes> ServiceClient::call(const interfaces::Bytes& request,
@@ -134,8 +132,7 @@ std::optional<std::int64_t> ServiceClient::key_of(const fdds::DataReader& reader
 void ServiceClient::on_data_available(fdds::DataReader* reader) {
   const std::lock_guard lock(mutex_);
   fdds::SampleInfo info;
-  for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
-       incoming = {}) {
+  for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == kOk; incoming = {}) {
     if (!info.valid_data || !incoming.readable) continue;
     const auto key = key_of(*reader, info, incoming.bytes);
     if (!key) continue;
@@ -146,7 +143,7 @@ void ServiceClient::on_data_available(fdds::DataReader* reader) {
 }
 
 void ServiceClient::on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& status) {
-  if (is_of_this_process(eprosima::fastrtps::rtps::iHandle2GUID(status.last_publication_handle))) return;
+  if (is_of_this_process(rtps::iHandle2GUID(status.last_publication_handle))) return;
   const std::lock_guard lock(mutex_);
   matched_servers_ += status.current_count_change;
   changed_.notify_all();

@@ -13,6 +13,7 @@
 #include <mutex>
 #include <optional>
 
+#include "fast_dds.hpp"
 #include "matched_readers.hpp"
 #include "panvo/runtime/service.hpp"
 #include "participant.hpp"
@@ -20,7 +21,7 @@
 namespace panvo::runtime::dds {
 
 /// Client of a service of another process, compatible with rmw_fastrtps and rmw_cyclonedds; see ServiceServer.
-class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds::DataReaderListener {
+class ServiceClient final : public BridgeClient, private fdds::DataReaderListener {
  public:
   /// Throws ConfigError if Fast DDS refuses its topics.
   ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> readers,
@@ -35,27 +36,26 @@ class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds:
   bool is_of_cyclone() const;
   /// Sends a request. Returns the key of its reply in replies_; nullopt on failure.
   std::optional<std::int64_t> send(const interfaces::Bytes& request);
-  std::optional<std::int64_t> key_of(const eprosima::fastdds::dds::DataReader& reader,
-                                     const eprosima::fastdds::dds::SampleInfo& info, interfaces::Bytes& reply);
-  void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
-  void on_subscription_matched(eprosima::fastdds::dds::DataReader* reader,
-                               const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
+  std::optional<std::int64_t> key_of(const fdds::DataReader& reader, const fdds::SampleInfo& info,
+                                     interfaces::Bytes& reply);
+  void on_data_available(fdds::DataReader* reader) override;
+  void on_subscription_matched(fdds::DataReader* reader, const fdds::SubscriptionMatchedStatus& status) override;
 
   const std::shared_ptr<Participant> readers_, writers_;
-  const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;
+  const std::shared_ptr<fdds::Topic> request_topic_, reply_topic_;
 
   const std::chrono::steady_clock::time_point made_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::condition_variable changed_;
   bool closed_ = false;
   int matched_servers_ = 0;
-  eprosima::fastrtps::rtps::GUID_t own_writer_;
+  rtps::GUID_t own_writer_;
   std::map<std::int64_t, interfaces::Bytes> replies_;  // by number of the request; the newest only
   std::atomic<std::int64_t> last_of_cyclone_ = 0;      // number of the last request with a header
 
   MatchedReaders servers_;
-  eprosima::fastdds::dds::DataReader* reader_ = nullptr;
-  eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
+  fdds::DataReader* reader_ = nullptr;
+  fdds::DataWriter* writer_ = nullptr;
 };
 
 }  // namespace panvo::runtime::dds

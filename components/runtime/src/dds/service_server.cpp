@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service_server.hpp"
 
-#include <fastdds/rtps/common/WriteParams.h>
 #include <spdlog/fmt/fmt.h>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
 #include "clocks.hpp"
 #include "endpoint_qos.hpp"
+#include "fast_dds.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime::dds {
-
-namespace fdds = eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::GUID_t;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 namespace {
 
@@ -24,7 +20,7 @@ constexpr std::size_t kMaxKept = 32;
 // is gone or stalled.
 constexpr std::chrono::seconds kLastAnswerLimit{2};
 
-bool is_reader(const GUID_t& guid) {
+bool is_reader(const rtps::GUID_t& guid) {
   constexpr std::uint8_t kReaderBit = 0x04;
   return (guid.entityId.value[3] & kReaderBit) != 0;
 }
@@ -100,8 +96,7 @@ ServiceCounters ServiceServer::counters() const {
 void ServiceServer::on_data_available(fdds::DataReader* reader) {
   const std::lock_guard lock(taking_mutex_);
   fdds::SampleInfo info;
-  for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
-       incoming = {}) {
+  for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == kOk; incoming = {}) {
     if (!info.valid_data) continue;
     ++received_;
     if (is_over_limits(incoming)) continue;
@@ -126,8 +121,8 @@ std::optional<ServiceServer::Asker> ServiceServer::asker_of(const fdds::SampleIn
     asker.header = take_header(request);
     return asker.header ? std::optional(asker) : std::nullopt;
   }
-  const GUID_t& reply_reader = info.related_sample_identity.writer_guid();
-  if (reply_reader != GUID_t::unknown()) asker.identity.writer_guid(reply_reader);
+  const rtps::GUID_t& reply_reader = info.related_sample_identity.writer_guid();
+  if (reply_reader != rtps::GUID_t::unknown()) asker.identity.writer_guid(reply_reader);
   return asker;
 }
 
@@ -173,19 +168,19 @@ void ServiceServer::answer(const interfaces::Bytes& request, const Asker& asker)
 }
 
 bool ServiceServer::is_reachable(const Asker& asker) const {
-  const GUID_t& client = asker.identity.writer_guid();
+  const rtps::GUID_t& client = asker.identity.writer_guid();
   if (asker.header) {
-    return clients_.contains_any([&](const GUID_t& reader) { return reader.guidPrefix == client.guidPrefix; });
+    return clients_.contains_any([&](const rtps::GUID_t& reader) { return reader.guidPrefix == client.guidPrefix; });
   }
   return !is_reader(client) || clients_.contains(client);
 }
 
 void ServiceServer::send(const interfaces::Bytes& response, const Asker& asker) {
-  eprosima::fastrtps::rtps::WriteParams params;
+  rtps::WriteParams params;
   params.related_sample_identity(asker.identity);
   const auto for_cyclone = asker.header ? with_header(*asker.header, response) : interfaces::Bytes();
   Outgoing outgoing(asker.header ? for_cyclone : response);
-  ++(writer_->write(&outgoing, params) ? answered_ : unanswered_);
+  ++(write(*writer_, &outgoing, params) ? answered_ : unanswered_);
 }
 
 void ServiceServer::keep(interfaces::Bytes response, const Asker& asker) {

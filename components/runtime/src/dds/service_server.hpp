@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastdds/rtps/common/SampleIdentity.h>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
@@ -13,6 +12,7 @@
 #include <optional>
 
 #include "cyclone_header.hpp"
+#include "fast_dds.hpp"
 #include "matched_readers.hpp"
 #include "notifier.hpp"
 #include "panvo/runtime/service.hpp"
@@ -28,7 +28,7 @@ namespace panvo::runtime::dds {
 /// in `related_sample_identity`, where the client has put the GUID of its reply reader. A reply is kept until that
 /// reader has been discovered, as it would be lost before. Other requests are answered meanwhile. Clients of Cyclone
 /// DDS are answered as by rmw_cyclonedds, with a header in the reply; their reply reader is any of their process.
-class ServiceServer final : public BridgeService, private eprosima::fastdds::dds::DataReaderListener {
+class ServiceServer final : public BridgeService, private fdds::DataReaderListener {
  public:
   /// Throws ConfigError if Fast DDS refuses its topics.
   ServiceServer(const ServiceDescription& service, ServiceHandler handler, ServiceGuard guard,
@@ -39,9 +39,9 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   ServiceCounters counters() const override;
 
  private:
-  using Identity = eprosima::fastrtps::rtps::SampleIdentity;
+  using Identity = rtps::SampleIdentity;
 
-  void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
+  void on_data_available(fdds::DataReader* reader) override;
   /// Whether a request exceeds the rate or size limit; this is counted and logged.
   bool is_over_limits(const Incoming& incoming);
   struct Asker {
@@ -51,7 +51,7 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   };
 
   /// nullopt if the request of a Cyclone client lacks its header, which is removed from `request`.
-  std::optional<Asker> asker_of(const eprosima::fastdds::dds::SampleInfo& info, interfaces::Bytes& request) const;
+  std::optional<Asker> asker_of(const fdds::SampleInfo& info, interfaces::Bytes& request) const;
   void answer(const interfaces::Bytes& request, const Asker& asker);
   interfaces::Bytes response_to(const interfaces::Bytes& request, const Caller& caller);
   bool is_reachable(const Asker& asker) const;
@@ -75,7 +75,7 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   const std::shared_ptr<Participant> readers_, writers_;
   const std::shared_ptr<ServiceQueue> queue_;
   const std::shared_ptr<Notifier> notifier_;
-  const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;
+  const std::shared_ptr<fdds::Topic> request_topic_, reply_topic_;
 
   std::mutex taking_mutex_;  // guards the two below
   RateLimit rate_;
@@ -84,8 +84,8 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   std::deque<Kept> kept_;  // oldest first; this and the next are used on the service thread only
   bool alarm_set_ = false;
   MatchedReaders clients_;
-  eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
-  eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // last: requests may arrive from now on
+  fdds::DataWriter* writer_ = nullptr;
+  fdds::DataReader* reader_ = nullptr;  // last: requests may arrive from now on
 };
 
 /// Topics of a service's requests and replies.

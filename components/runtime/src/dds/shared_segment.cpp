@@ -8,12 +8,13 @@
 
 #include <sstream>
 
+#include "fast_dds.hpp"
 #include "participant_qos.hpp"
 
 namespace panvo::runtime::dds {
 namespace {
 
-std::string segment_name(const eprosima::fastrtps::rtps::GUID_t& endpoint) {
+std::string segment_name(const rtps::GUID_t& endpoint) {
   std::ostringstream name;  // Fast DDS's name
   name << kSharedMemoryFolder << "/fast_datasharing_" << endpoint.guidPrefix << "_" << endpoint.entityId;
   return name.str();
@@ -39,8 +40,7 @@ bool has_room_to_share(std::uint64_t bytes) {
   return has_room;
 }
 
-SharedSegment::SharedSegment(const eprosima::fastrtps::rtps::GUID_t& endpoint)
-    : lock_file_(segment_name(endpoint) + "_el") {
+SharedSegment::SharedSegment(const rtps::GUID_t& endpoint) : lock_file_(segment_name(endpoint) + "_el") {
   is_reserved_ = reserve(segment_name(endpoint));
   if (!is_reserved_) return;
   constexpr mode_t kReadableByAll = 0444;

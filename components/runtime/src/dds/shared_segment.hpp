@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastdds/rtps/common/Guid.h>
-
 #include <cstdint>
 #include <filesystem>
+
+#include "fast_dds.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -17,7 +17,7 @@ bool has_room_to_share(std::uint64_t bytes);
 /// this object after the endpoint, which removes the memory.
 class SharedSegment {
  public:
-  explicit SharedSegment(const eprosima::fastrtps::rtps::GUID_t& endpoint);
+  explicit SharedSegment(const rtps::GUID_t& endpoint);
   ~SharedSegment();
   SharedSegment(const SharedSegment&) = delete;
   SharedSegment& operator=(const SharedSegment&) = delete;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "udp_transport.hpp"
 
-#include <fastdds/rtps/transport/ChainingTransport.h>
-#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -14,16 +11,9 @@
 #include <vector>
 
 #include "announcement.hpp"
+#include "fast_dds.hpp"
 
 namespace panvo::runtime::dds {
-
-namespace rtps = eprosima::fastrtps::rtps;
-using eprosima::fastdds::rtps::ChainingTransport;
-using eprosima::fastdds::rtps::ChainingTransportDescriptor;
-using eprosima::fastdds::rtps::SendResourceList;
-using eprosima::fastdds::rtps::TransportDescriptorInterface;
-using eprosima::fastdds::rtps::TransportInterface;
-using eprosima::fastdds::rtps::TransportReceiverInterface;
 
 namespace {
 
@@ -78,24 +68,19 @@ class Gate {
   bool is_open_ = false;
 };
 
-class Transport final : public ChainingTransport {
+class Transport final : public ReceivingTransport {
  public:
-  Transport(const ChainingTransportDescriptor& descriptor, std::shared_ptr<Gate> gate)
-      : ChainingTransport(descriptor), udp_(descriptor.low_level_descriptor), gate_(std::move(gate)) {}
+  Transport(const rtps::ChainingTransportDescriptor& descriptor, std::shared_ptr<Gate> gate)
+      : ReceivingTransport(descriptor), udp_(descriptor.low_level_descriptor), gate_(std::move(gate)) {}
 
-  TransportDescriptorInterface* get_configuration() override { return udp_.get(); }
+  rtps::TransportDescriptorInterface* get_configuration() override { return udp_.get(); }
 
   // Outgoing messages bypass this transport. If its senders were wrapped, UDP would not recognise its own and would
   // open more per participant.
-  bool OpenOutputChannel(SendResourceList& senders, const rtps::Locator_t& locator) override {
+  bool OpenOutputChannel(rtps::SendResourceList& senders, const rtps::Locator_t& locator) override {
     return low_level_transport_->OpenOutputChannel(senders, locator);
   }
-  bool send(rtps::SenderResource* sender, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* begin,
-            rtps::LocatorsIterator* end, const std::chrono::steady_clock::time_point& limit) override {
-    return sender->send(bytes, size, begin, end, limit);
-  }
-
-  void receive(TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
+  void receive(rtps::TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
                const rtps::Locator_t& local, const rtps::Locator_t& remote) override {
     gate_->wait();
     std::unique_lock one_at_a_time(announcements_, std::defer_lock);
@@ -111,27 +96,28 @@ class Transport final : public ChainingTransport {
   }
 
  private:
-  const std::shared_ptr<TransportDescriptorInterface> udp_;
+  const std::shared_ptr<rtps::TransportDescriptorInterface> udp_;
   const std::shared_ptr<Gate> gate_;
   // Each socket has a thread. The security manager of Fast DDS 2.9 keeps the participant it connects to in a member
   // without a lock: of two participants announced at the same time, one was connected twice and the other never.
   std::recursive_mutex announcements_;
 };
 
-struct Descriptor final : ChainingTransportDescriptor {
-  using ChainingTransportDescriptor::ChainingTransportDescriptor;
-  TransportInterface* create_transport() const override { return new Transport(*this, gate); }
+struct Descriptor final : rtps::ChainingTransportDescriptor {
+  using rtps::ChainingTransportDescriptor::ChainingTransportDescriptor;
+  rtps::TransportInterface* create_transport() const override { return new Transport(*this, gate); }
 
   const std::shared_ptr<Gate> gate = std::make_shared<Gate>();
 };
 
 }  // namespace
 
-std::shared_ptr<TransportDescriptorInterface> mended_udp(std::shared_ptr<TransportDescriptorInterface> udp) {
+std::shared_ptr<rtps::TransportDescriptorInterface> mended_udp(
+    std::shared_ptr<rtps::TransportDescriptorInterface> udp) {
   return std::make_shared<Descriptor>(std::move(udp));
 }
 
-void start_reception(const eprosima::fastdds::dds::DomainParticipantQos& qos) {
+void start_reception(const fdds::DomainParticipantQos& qos) {
   for (const auto& transport : qos.transport().user_transports) {
     if (const auto mended = std::dynamic_pointer_cast<Descriptor>(transport)) mended->gate->open();
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastdds/rtps/common/Guid.h>
-#include <fastdds/rtps/transport/TransportDescriptorInterface.h>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
 #include <memory>
+
+#include "fast_dds_transports.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -21,14 +21,13 @@ namespace panvo::runtime::dds {
 ///    ROS 2's settings after up to 3 s. Therefore received messages wait for start_reception().
 /// 3. Announcements that are handled at the same time confuse its security manager. Therefore they are handled one at a
 ///    time.
-std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> mended_udp(
-    std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> udp);
+std::shared_ptr<rtps::TransportDescriptorInterface> mended_udp(std::shared_ptr<rtps::TransportDescriptorInterface> udp);
 
 /// To be called once the participant with these transports has been created.
-void start_reception(const eprosima::fastdds::dds::DomainParticipantQos& qos);
+void start_reception(const fdds::DomainParticipantQos& qos);
 
 /// Removes `participant` after the message that this thread is processing, in which another participant announces
 /// itself at its ports. No effect on threads of another transport.
-void let_go_replaced(const eprosima::fastrtps::rtps::GuidPrefix_t& participant);
+void let_go_replaced(const rtps::GuidPrefix_t& participant);
 
 }  // namespace panvo::runtime::dds

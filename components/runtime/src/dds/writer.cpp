@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "endpoint_qos.hpp"
+#include "fast_dds.hpp"
 #include "image_sharing.hpp"
 #include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
@@ -14,9 +15,6 @@
 #include "sample_data_type.hpp"
 
 namespace panvo::runtime::dds {
-
-namespace fdds = eprosima::fastdds::dds;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 Writer::Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
                std::shared_ptr<Notifier> notifier, ImageTransport transport)
@@ -47,7 +45,7 @@ bool Writer::write(const SamplePtr& sample) {
   for (int attempt = 0; attempt < kWriteAttempts; ++attempt) {
     const auto begin = std::chrono::steady_clock::now();
     auto params = written_by(writer_->guid());
-    if (writer_->write(&outgoing, params)) return true;
+    if (dds::write(*writer_, &outgoing, params)) return true;
     // Fast DDS 2.9 never removes a message acknowledged while another reader joins, and shared memory is freed in order
     // only: without this, writing would fail from then on. Without memory it fails at once, otherwise after the
     // blocking time.
@@ -62,11 +60,11 @@ void Writer::forget_messages() {
 }
 
 bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {
-  return writer_->wait_for_acknowledgments(to_dds(limit)) == ReturnCode_t::RETCODE_OK;
+  return writer_->wait_for_acknowledgments(to_dds(limit)) == kOk;
 }
 
 void Writer::on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) {
-  if (is_of_this_process(eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle))) return;
+  if (is_of_this_process(rtps::iHandle2GUID(status.last_subscription_handle))) return;
   matched_readers_ += static_cast<std::size_t>(status.current_count_change);  // unsigned wrap-around intended
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "fast_dds.hpp"
 #include "notifier.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant.hpp"
@@ -24,7 +25,7 @@ struct ImageTransport {
 };
 
 /// Publishes a topic of this process to other processes.
-class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWriterListener {
+class Writer final : public BridgeWriter, private fdds::DataWriterListener {
  public:
   /// Throws ConfigError if Fast DDS refuses the topic. `wire` holds its wire names.
   Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
@@ -43,20 +44,18 @@ class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWr
   void forget_messages();
 
  private:
-  void on_publication_matched(eprosima::fastdds::dds::DataWriter* writer,
-                              const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
-  void on_offered_incompatible_qos(eprosima::fastdds::dds::DataWriter* writer,
-                                   const eprosima::fastdds::dds::OfferedIncompatibleQosStatus& status) override;
+  void on_publication_matched(fdds::DataWriter* writer, const fdds::PublicationMatchedStatus& status) override;
+  void on_offered_incompatible_qos(fdds::DataWriter* writer, const fdds::OfferedIncompatibleQosStatus& status) override;
 
   const std::string name_;
   const bool keeps_for_late_joiners_;
   const ImageTransport transport_;
   const std::shared_ptr<Participant> participant_;
   const std::shared_ptr<Notifier> notifier_;
-  const std::shared_ptr<eprosima::fastdds::dds::Topic> topic_;
+  const std::shared_ptr<fdds::Topic> topic_;
   std::atomic<std::size_t> matched_readers_ = 0;
   std::optional<SharedSegment> segment_;
-  eprosima::fastdds::dds::DataWriter* writer_ = nullptr;  // uses the members above
+  fdds::DataWriter* writer_ = nullptr;  // uses the members above
 };
 
 }  // namespace panvo::runtime::dds

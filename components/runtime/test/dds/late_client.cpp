@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "late_client.hpp"
 
-#include <fastdds/rtps/common/WriteParams.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -40,13 +39,13 @@ LateClient::LateClient(int domain, const std::string& service, const std::string
   shown_later.entity_factory().autoenable_created_entities = false;
   DataReaderQos reader_qos = DATAREADER_QOS_DEFAULT;
   reader_qos.reliability().kind = RELIABLE_RELIABILITY_QOS;
-  reader_qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  reader_qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   replies = participant->create_subscriber(shown_later)
                 ->create_datareader(topic(dds::wire_reply_name(service), "_Response"), reader_qos);
   DataWriterQos writer_qos = DATAWRITER_QOS_DEFAULT;
   writer_qos.history().depth = 100;
   writer_qos.data_sharing().off();
-  writer_qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  writer_qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   requests = participant->create_publisher(PUBLISHER_QOS_DEFAULT)
                  ->create_datawriter(topic(dds::wire_request_name(service), "_Request"), writer_qos);
 }
@@ -57,9 +56,9 @@ LateClient::~LateClient() {
 }
 
 bool LateClient::ask(std::vector<std::uint8_t> request) {
-  eprosima::fastrtps::rtps::WriteParams params;
+  rtps::WriteParams params;
   params.related_sample_identity().writer_guid(entities_->replies->guid());
-  return entities_->requests->write(&request, params);
+  return dds::write(*entities_->requests, &request, params);
 }
 
 void LateClient::show_reader() { entities_->replies->enable(); }

@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "bridge_fixture.hpp"
+#include "dds/fast_dds.hpp"
 #include "dds/node_info.hpp"
 #include "panvo/runtime/graph.hpp"
 #include "rmw_dds_common/msg/ParticipantEntitiesInfo.h"
@@ -105,7 +106,7 @@ TEST_F(Nodes, OfAnotherProcessAreListedOnceWithWhatTheyHave) {
   }));
   const auto node = nodes_called("talker").at(0);
   // ROS 2 looks up the node of an endpoint in the list of the endpoint's participant.
-  const auto participant = node.readers.at(0).substr(0, 2 * eprosima::fastrtps::rtps::GuidPrefix_t::size);
+  const auto participant = node.readers.at(0).substr(0, 2 * dds::rtps::GuidPrefix_t::size);
   for (const auto& endpoint : endpoints) {
     EXPECT_TRUE(endpoint.gid.starts_with(participant)) << endpoint.name;
     const auto& gids = endpoint.is_writer ? node.writers : node.readers;

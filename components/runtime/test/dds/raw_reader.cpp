@@ -26,9 +26,9 @@ RawReader::RawReader(int domain, const std::string& wire_topic_name, const std::
   qos.reliability().kind = RELIABLE_RELIABILITY_QOS;
   qos.durability().kind = TRANSIENT_LOCAL_DURABILITY_QOS;
   qos.history().kind = KEEP_ALL_HISTORY_QOS;
-  qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(user_data.begin(), user_data.end()));
+  qos.user_data().setValue(std::vector<rtps::octet>(user_data.begin(), user_data.end()));
   qos.data_sharing().off();
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   participant_->create_subscriber(SUBSCRIBER_QOS_DEFAULT)->create_datareader(topic, qos, this);
 }
 
@@ -39,8 +39,7 @@ RawReader::~RawReader() {
 
 void RawReader::on_data_available(DataReader* reader) {
   SampleInfo info;
-  for (RawType::Payload payload;
-       reader->take_next_sample(&payload, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;) {
+  for (RawType::Payload payload; reader->take_next_sample(&payload, &info) == kOk;) {
     if (info.valid_data) on_message_(payload);
   }
 }

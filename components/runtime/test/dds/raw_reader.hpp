@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "raw_type.hpp"
+
 namespace eprosima::fastdds::dds {
 class DomainParticipant;
 }
@@ -16,17 +18,17 @@ namespace panvo::runtime::test {
 
 /// Reads a reliable, transient local topic without the bridge, like a node of another program. `user_data` is announced
 /// with the reader.
-class RawReader final : private eprosima::fastdds::dds::DataReaderListener {
+class RawReader final : private fdds::DataReaderListener {
  public:
   RawReader(int domain, const std::string& wire_topic_name, const std::string& wire_type_name,
             const std::string& user_data, std::function<void(const std::vector<std::uint8_t>&)> on_message);
   ~RawReader() override;
 
  private:
-  void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
+  void on_data_available(fdds::DataReader* reader) override;
 
   const std::function<void(const std::vector<std::uint8_t>&)> on_message_;
-  eprosima::fastdds::dds::DomainParticipant* participant_;
+  fdds::DomainParticipant* participant_;
 };
 
 }  // namespace panvo::runtime::test

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raw_writer.hpp"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -10,6 +8,7 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include "dds/fast_dds_transports.hpp"
 #include "raw_type.hpp"
 
 namespace panvo::runtime::test {
@@ -19,13 +18,12 @@ using namespace eprosima::fastdds::dds;
 namespace {
 
 void look_on_localhost(DomainParticipantQos& qos) {
-  using eprosima::fastrtps::rtps::Locator_t;
   auto& builtin = qos.wire_protocol().builtin;
-  builtin.metatrafficUnicastLocatorList.push_back(Locator_t());  // no multicast
-  Locator_t this_machine;
-  eprosima::fastrtps::rtps::IPLocator::setIPv4(this_machine, "127.0.0.1");
+  builtin.metatrafficUnicastLocatorList.push_back(rtps::Locator_t());  // no multicast
+  rtps::Locator_t this_machine;
+  rtps::IPLocator::setIPv4(this_machine, "127.0.0.1");
   builtin.initialPeersList.push_back(this_machine);
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->maxInitialPeersRange = 32;
   qos.transport().user_transports.push_back(udp);
   qos.transport().use_builtin_transports = false;
@@ -44,7 +42,7 @@ RawWriter::RawWriter(int domain, const std::string& wire_topic_name, const std::
     : entities_(std::make_unique<Entities>()) {
   auto& [participant, publisher, topic, writer] = *entities_;
   DomainParticipantQos participant_qos = PARTICIPANT_QOS_DEFAULT;
-  participant_qos.wire_protocol().builtin.discovery_config.leaseDuration = eprosima::fastrtps::c_TimeInfinite;
+  participant_qos.wire_protocol().builtin.discovery_config.leaseDuration = dds::kInfinite;
   if (offer.on_localhost) look_on_localhost(participant_qos);
   participant =
       DomainParticipantFactory::get_instance()->create_participant(static_cast<DomainId_t>(domain), participant_qos);
@@ -56,7 +54,7 @@ RawWriter::RawWriter(int domain, const std::string& wire_topic_name, const std::
   qos.durability().kind = offer.transient_local ? TRANSIENT_LOCAL_DURABILITY_QOS : VOLATILE_DURABILITY_QOS;
   qos.history().depth = 100;
   qos.data_sharing().off();
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   writer = publisher->create_datawriter(topic, qos);
 }
 
@@ -65,7 +63,7 @@ RawWriter::~RawWriter() {
   DomainParticipantFactory::get_instance()->delete_participant(entities_->participant);
 }
 
-bool RawWriter::write(std::vector<std::uint8_t> payload) { return entities_->writer->write(&payload); }
+bool RawWriter::write(std::vector<std::uint8_t> payload) { return dds::write(*entities_->writer, &payload); }
 
 int RawWriter::matched_readers() const {
   PublicationMatchedStatus status;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds/remote_only_filter.hpp"
+#include "dds/fast_dds.hpp"
 
 #include <gtest/gtest.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -17,8 +18,6 @@
 namespace panvo::runtime::test {
 namespace {
 
-namespace fdds = eprosima::fastdds::dds;
-using eprosima::fastrtps::types::ReturnCode_t;
 using Payload = RawType::Payload;
 
 /// A participant with a writer, whose readers have the filter.
@@ -50,17 +49,16 @@ class RemoteOnlyFilter : public testing::Test {
     return participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT)->create_datareader(filtered_, qos);
   }
 
-  bool write(Payload payload, eprosima::fastrtps::rtps::GUID_t stated_writer) {
+  bool write(Payload payload, rtps::GUID_t stated_writer) {
     auto params = dds::written_by(stated_writer);
-    return writer_->write(&payload, params);
+    return dds::write(*writer_, &payload, params);
   }
 
   /// Fast DDS delivers within a process before write() returns.
   static std::vector<Payload> taken(fdds::DataReader* reader) {
     std::vector<Payload> all;
     fdds::SampleInfo info;
-    for (Payload payload; reader->take_next_sample(&payload, &info) == ReturnCode_t::RETCODE_OK;)
-      all.push_back(payload);
+    for (Payload payload; reader->take_next_sample(&payload, &info) == kOk;) all.push_back(payload);
     return all;
   }
 

@@ -202,9 +202,8 @@ TEST_F(BetweenProcesses, RequestsThatAreTooLargeOrTooManyAreDroppedAndCounted) {
 }
 
 TEST(SameHost, IsToldByVendorAndHostAndNeverByAHash) {
-  using eprosima::fastrtps::rtps::GUID_t;
   const auto guid = [](std::initializer_list<std::uint8_t> first) {
-    GUID_t made;
+    dds::rtps::GUID_t made;
     std::copy(first.begin(), first.end(), made.guidPrefix.value);
     return made;
   };

@@ -2,10 +2,6 @@
 #include "dds/udp_transport.hpp"
 
 #include <arpa/inet.h>
-#include <fastdds/rtps/transport/TransportInterface.h>
-#include <fastdds/rtps/transport/TransportReceiverInterface.h>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -19,11 +15,13 @@
 #include "peer_process.hpp"
 
 namespace panvo::runtime::test {
+
+namespace fdds = dds::fdds;
+namespace rtps = dds::rtps;
+
 namespace {
 
-namespace rtps = eprosima::fastrtps::rtps;
-
-struct Receiver final : eprosima::fastdds::rtps::TransportReceiverInterface {
+struct Receiver final : rtps::TransportReceiverInterface {
   void OnDataReceived(const rtps::octet*, std::uint32_t, const rtps::Locator_t&, const rtps::Locator_t&) override {
     ++(is_started ? after_start : before_start);
   }
@@ -71,11 +69,9 @@ bool is_read(std::uint16_t port) {
 
 TEST(MendedUdp, HoldsMessagesUntilReceptionStarts) {
   const auto port = Socket().bind_any();
-  eprosima::fastdds::dds::DomainParticipantQos qos;
-  qos.transport().user_transports = {
-      dds::mended_udp(std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>())};
-  const std::unique_ptr<eprosima::fastdds::rtps::TransportInterface> transport(
-      qos.transport().user_transports[0]->create_transport());
+  fdds::DomainParticipantQos qos;
+  qos.transport().user_transports = {dds::mended_udp(std::make_shared<rtps::UDPv4TransportDescriptor>())};
+  const std::unique_ptr<rtps::TransportInterface> transport(qos.transport().user_transports[0]->create_transport());
   ASSERT_TRUE(transport->init());
   rtps::Locator_t address;
   rtps::IPLocator::setIPv4(address, "127.0.0.1");

@@ -88,7 +88,7 @@ float open_share(RTCScene scene, const Place& place, const std::vector<Eigen::Ve
     if (length > 1e-6f) origin += std::min(kInwards, 0.5f * length) / length * inwards;
   }
   TraceContext context;
-  rtcInitIntersectContext(&context.embree);
+  init_context(context.embree);
   float open = 0.0f;
   std::size_t from_behind = 0;
   for (std::size_t first = 0; first < directions.size(); first += 16) {
@@ -113,7 +113,7 @@ float open_share(RTCScene scene, const Place& place, const std::vector<Eigen::Ve
       rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect16(valid.data(), scene, &context.embree, &rays);
+    intersect_16(valid.data(), scene, context.embree, rays, Rays::kAnyDirection);
     for (std::size_t i = 0; i < 16; ++i) {
       if (rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
         open += 1.0f;

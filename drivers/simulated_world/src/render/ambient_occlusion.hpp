@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <cstdint>
 #include <vector>
 
+#include "embree.hpp"
 #include "panvo/simulated_world/mesh.hpp"
 
 namespace panvo::simulated_world {

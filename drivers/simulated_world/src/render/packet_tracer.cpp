@@ -14,10 +14,9 @@ constexpr float kNotTraced = -std::numeric_limits<float>::infinity();
 constexpr float kEvenSky = 0.015f;   // relative brightness difference: smaller ones are not visible
 constexpr float kSunSpread = 0.01f;  // rad: the sun's disc, so that gaps between distant leaves have soft edges
 
-TraceContext trace_context(float spread, RTCIntersectContextFlags flags) {
+TraceContext trace_context(float spread) {
   TraceContext context;
-  rtcInitIntersectContext(&context.embree);
-  context.embree.flags = flags;
+  init_context(context.embree);
   context.spread = spread;
   return context;
 }
@@ -92,12 +91,12 @@ void PacketTracer::cast(TracedPacket& packet, std::uint32_t lanes, float spread)
   }
   alignas(64) std::int32_t valid[kPacket];
   set_lanes(lanes, valid);
-  auto context = trace_context(spread, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
-  rtcIntersect16(valid, scene_.standing(), &context.embree, &packet.rays);
+  auto context = trace_context(spread);
+  intersect_16(valid, scene_.standing(), context.embree, packet.rays, Rays::kCoherent);
   if (scene_.moving() == nullptr) return;
   alignas(64) float before[kPacket];
   std::copy_n(rays.tfar, kPacket, before);
-  rtcIntersect16(valid, scene_.moving(), &context.embree, &packet.rays);
+  intersect_16(valid, scene_.moving(), context.embree, packet.rays, Rays::kCoherent);
   for (int i = 0; i < kPacket; ++i) packet.is_moving[i] = rays.tfar[i] < before[i] ? -1 : 0;
 }
 
@@ -123,12 +122,12 @@ std::uint32_t PacketTracer::light_up(const SampleRays& samples, const TracedPack
   for (unsigned i = 0; i < kPacket; ++i)
     if (valid[i] == 0) shaded.shadow.tfar[i] = kNotTraced;
   statistics.shadow_rays += static_cast<std::uint64_t>(std::popcount(shadow_lanes));
-  auto context = trace_context(kSunSpread, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+  auto context = trace_context(kSunSpread);
   for (unsigned i = 0; i < kPacket; ++i) shaded.shadow.id[i] = i;
-  rtcOccluded16(valid, scene_.standing(), &context.embree, &shaded.shadow);
+  occluded_16(valid, scene_.standing(), context.embree, shaded.shadow, Rays::kCoherent);
   if (scene_.moving() != nullptr) {
     for (int i = 0; i < kPacket; ++i) valid[i] &= shaded.shadow.tfar[i] >= 0.0f ? -1 : 0;
-    rtcOccluded16(valid, scene_.moving(), &context.embree, &shaded.shadow);
+    occluded_16(valid, scene_.moving(), context.embree, shaded.shadow, Rays::kCoherent);
   }
   for (unsigned i = 0; i < kPacket; ++i) {
     if ((shadow_lanes >> i & 1u) != 0 && shaded.shadow.tfar[i] < 0.0f) in_light &= ~(1u << i);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "embree.hpp"
 #include "panvo/simulated_world/renderer.hpp"
 #include "panvo/simulated_world/scene.hpp"
 #include "shading_materials.hpp"
@@ -41,7 +40,7 @@ static_assert(sizeof(ObjectRecord) == 32 * sizeof(std::uint32_t));
 
 /// Context that Embree passes to the hole filter.
 struct TraceContext {
-  RTCIntersectContext embree;
+  RayContext embree;
   float spread = 0.0f;  ///< rad: widening of the rays with distance
 };
 

@@ -11,6 +11,8 @@
 
 namespace panvo::calibration {
 
+class CharucoDetector;
+
 /// The corners found in one image, or the reason why there are none.
 struct Sighting {
   std::vector<Corner> corners;
@@ -29,14 +31,12 @@ class BoardDetector {
   Sighting detect(const cv::Mat& grey) const;
 
  private:
-  struct Markers;
-
   Sighting detect_chessboard(const cv::Mat& grey) const;
   Sighting detect_charuco(const cv::Mat& grey) const;
   bool is_reversed(const cv::Mat& grey, const std::vector<cv::Point2f>& corners) const;
 
   Board board_;
-  std::unique_ptr<Markers> markers_;  ///< kCharuco only
+  std::unique_ptr<CharucoDetector> charuco_;  ///< kCharuco only
 };
 
 }  // namespace panvo::calibration
