@@ -52,7 +52,7 @@ TEST(Json, HoldsEveryFigureAndNullForWhatIsNotThere) {
 }
 
 TEST(Json, SurvivesANameThatIsNoUtf8) {
-  EXPECT_NO_THROW(nlohmann::json::parse(to_json(small_report("bad \xff\xfe title"))));
+  EXPECT_TRUE(nlohmann::json::accept(to_json(small_report("bad \xff\xfe title"))));
 }
 
 TEST(Csv, HasALineForEachPoseOfEachEstimate) {

@@ -210,9 +210,14 @@ void WebServer::listen() {
   mg_callbacks callbacks{};
   callbacks.log_message = Handlers::log;
   std::array<char, 256> reason{};
-  unsigned code = 0;
   mg_init_data init{&callbacks, this, const_cast<const char**>(options.data())};
-  mg_error_data error{&code, reason.data(), reason.size()};
+  mg_error_data error{};
+#if CIVETWEB_VERSION_MAJOR == 1 && CIVETWEB_VERSION_MINOR < 16
+  unsigned code = 0;
+  error.code = &code;
+#endif
+  error.text = reason.data();
+  error.text_buffer_size = reason.size();
   context_ = mg_start2(&init, &error);
   if (!context_) throw ServerError("cannot listen on " + address + ": " + reason.data());
   mg_server_port port{};

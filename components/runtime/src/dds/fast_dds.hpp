@@ -64,6 +64,14 @@ inline const ReturnCode kOk = ReturnCode::RETCODE_OK;
 inline const Duration kInfinite = eprosima::fastrtps::c_TimeInfinite;
 #endif
 
+/// Whether participants may have flow controllers. In Fast DDS 3.0 and 3.1 their announcements then wait in a queue, and
+/// one that is due again before it is sent ends the process where assertions are compiled, as in Debian 13.
+#if defined(PANVO_FAST_DDS_3) && FASTDDS_VERSION_MAJOR == 3 && FASTDDS_VERSION_MINOR < 2
+inline constexpr bool kHasFlowControl = false;
+#else
+inline constexpr bool kHasFlowControl = true;
+#endif
+
 /// Writes `data`, which the type of the topic reads. `params` get the sequence number.
 inline bool write(fdds::DataWriter& writer, void* data, rtps::WriteParams& params) {
 #ifdef PANVO_FAST_DDS_3

@@ -31,7 +31,9 @@ void wait_for_readers(const Writer& wanted, const Writer& old) {
 }
 
 /// Fast DDS paces only what is sent asynchronously; lost parts of other images are sent again.
-bool can_pace(const TopicDescription& topic) { return topic.qos.requested == interfaces::Reliability::kBestEffort; }
+bool can_pace(const TopicDescription& topic) {
+  return kHasFlowControl && topic.qos.requested == interfaces::Reliability::kBestEffort;
+}
 
 }  // namespace
 

@@ -205,7 +205,7 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears he
   fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
   use_udp(qos, settings);
   apply_range(settings, qos);
-  qos.flow_controllers().push_back(pace());
+  if (kHasFlowControl) qos.flow_controllers().push_back(pace());
   qos.name(settings.name);
 
   // rmw also sends the terminating zero.
