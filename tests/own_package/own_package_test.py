@@ -113,6 +113,14 @@ class OwnPackage(unittest.TestCase):
         self.assertIn("min_step_m", said)
         self.assertIn("shorter steps are noise", said)
 
+    def test_showing_a_component_leaves_no_files(self):
+        folder = self.folder / "empty"
+        folder.mkdir()
+        done = subprocess.run(["panvo", "component", "show", "panvo_recorder"], cwd=folder, env=self.environment, capture_output=True, text=True,
+                              timeout=LIMIT_S, check=True)
+        self.assertIn("max_file_mb", done.stdout)
+        self.assertEqual(list(folder.iterdir()), [])
+
     def test_its_service_answers_and_its_message_is_known(self):
         (self.folder / "alone.yaml").write_text(
             "launch:\n- node_container:\n    name: panvo\n    composable_node:\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -43,8 +44,31 @@ void list() {
   if (!problems.empty()) throw ConfigError(std::move(problems));
 }
 
+/// An empty working folder, removed at the end: a component may write files when it is created, such as a recorder.
+class EmptyWorkingFolder {
+ public:
+  EmptyWorkingFolder() {
+    std::string made = (std::filesystem::temp_directory_path() / "panvo_component.XXXXXX").string();
+    if (!mkdtemp(made.data())) throw ConfigError(made + ": cannot be made; set TMPDIR to a folder with room");
+    folder_ = made;
+    std::filesystem::current_path(folder_);
+  }
+  ~EmptyWorkingFolder() {
+    std::error_code error;
+    std::filesystem::current_path(before_, error);
+    std::filesystem::remove_all(folder_, error);
+  }
+  EmptyWorkingFolder(const EmptyWorkingFolder&) = delete;
+  EmptyWorkingFolder& operator=(const EmptyWorkingFolder&) = delete;
+
+ private:
+  const std::filesystem::path before_ = std::filesystem::current_path();
+  std::filesystem::path folder_;
+};
+
 void show(const std::string& package) {
   const Library library(find_plugin(package));
+  const EmptyWorkingFolder working_folder;
   for (const auto* component : library.components()) {
     std::vector<ParameterDescription> parameters;
     Container container({.replay = true, .log = [](LogLevel, const std::string&, const std::string&) {}});
