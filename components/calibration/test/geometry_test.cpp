@@ -270,10 +270,10 @@ TEST(OpenCv, FindsTheSameFisheye) {
   cv::Mat matrix = (cv::Mat_<double>(3, 3) << about, 0.0, 320.0, 0.0, about, 240.0, 0.0, 0.0, 1.0);
   cv::Mat distortion = cv::Mat::zeros(4, 1, CV_64F);
   std::vector<cv::Mat> turns, places;
-  cv::fisheye::calibrate(data.points, data.pixels, {640, 480}, matrix, distortion, turns, places,
-                         cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW |
-                             cv::fisheye::CALIB_USE_INTRINSIC_GUESS,
-                         {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
+  cv::fisheye::calibrate(
+      data.points, data.pixels, {640, 480}, matrix, distortion, turns, places,
+      cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW | cv::fisheye::CALIB_USE_INTRINSIC_GUESS,
+      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
   const auto& lens = found.rig.cameras[0].lens;
   EXPECT_NEAR(lens.pinhole.fx, matrix.at<double>(0, 0), 0.01);
   EXPECT_NEAR(lens.pinhole.cy, matrix.at<double>(1, 2), 0.01);

@@ -55,8 +55,10 @@ class PostgresStore final : public StoreBackend {
     repeated([&] {
       auto& connection = open();
       told([&] {
-        if (settings) migrate(connection, name_, newest);
-        else check_layout(connection, name_, static_cast<int>(newest.size()));
+        if (settings)
+          migrate(connection, name_, newest);
+        else
+          check_layout(connection, name_, static_cast<int>(newest.size()));
       });
     });
     if (settings) transact([&] { prepare(*settings); });
