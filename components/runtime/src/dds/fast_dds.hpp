@@ -42,6 +42,7 @@ namespace panvo::runtime::dds {
 namespace fdds = eprosima::fastdds::dds;
 
 #ifdef PANVO_FAST_DDS_3
+inline constexpr bool kIsFastDds3 = true;
 namespace rtps = eprosima::fastdds::rtps;
 using Duration = fdds::Duration_t;
 using ReturnCode = fdds::ReturnCode_t;
@@ -51,6 +52,7 @@ inline constexpr const char* kFastDdsVersion = FASTDDS_VERSION_STR;
 inline constexpr ReturnCode kOk = fdds::RETCODE_OK;
 inline const Duration kInfinite = fdds::c_TimeInfinite;
 #else
+inline constexpr bool kIsFastDds3 = false;
 namespace rtps {
 using namespace eprosima::fastdds::rtps;
 using namespace eprosima::fastrtps::rtps;

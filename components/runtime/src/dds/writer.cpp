@@ -41,14 +41,16 @@ Writer::~Writer() {
 
 bool Writer::write(const SamplePtr& sample) {
   if (matched_readers_ == 0 && !keeps_for_late_joiners_) return true;
+  // Fast DDS never removes a shared message acknowledged while another reader joins. Version 3 ends the process by an
+  // assertion (where compiled, as in Debian 13) once there is no room for a further one.
+  if (kIsFastDds3 && shares() && has_new_reader_.exchange(false)) forget_messages();
   Outgoing outgoing(*sample);
   for (int attempt = 0; attempt < kWriteAttempts; ++attempt) {
     const auto begin = std::chrono::steady_clock::now();
     auto params = written_by(writer_->guid());
     if (dds::write(*writer_, &outgoing, params)) return true;
-    // Fast DDS 2.9 never removes a message acknowledged while another reader joins, and shared memory is freed in order
-    // only: without this, writing would fail from then on. Without memory it fails at once, otherwise after the
-    // blocking time.
+    // Shared memory is freed in order only: without this, writing would fail from then on with Fast DDS 2. Without memory
+    // it fails at once, otherwise after the blocking time.
     if (shares() && std::chrono::steady_clock::now() - begin < kMaxBlockingTime) forget_messages();
   }
   return false;
@@ -66,6 +68,7 @@ bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {
 void Writer::on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) {
   if (is_of_this_process(rtps::iHandle2GUID(status.last_subscription_handle))) return;
   matched_readers_ += static_cast<std::size_t>(status.current_count_change);  // unsigned wrap-around intended
+  has_new_reader_ = true;
 }
 
 void Writer::on_offered_incompatible_qos(fdds::DataWriter*, const fdds::OfferedIncompatibleQosStatus& status) {

@@ -54,6 +54,7 @@ class Writer final : public BridgeWriter, private fdds::DataWriterListener {
   const std::shared_ptr<Notifier> notifier_;
   const std::shared_ptr<fdds::Topic> topic_;
   std::atomic<std::size_t> matched_readers_ = 0;
+  std::atomic<bool> has_new_reader_ = false;
   std::optional<SharedSegment> segment_;
   fdds::DataWriter* writer_ = nullptr;  // uses the members above
 };
