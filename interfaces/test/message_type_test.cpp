@@ -9,6 +9,7 @@
 #include "panvo/interfaces/message_type.hpp"
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
+#include "rcl_interfaces/msg/ParameterValue.h"
 #include "rmw_dds_common/msg/ParticipantEntitiesInfo.h"
 #include "rosgraph_msgs/msg/Clock.h"
 #include "std_msgs/msg/String.h"
@@ -134,6 +135,20 @@ TEST(MessageType, RefusesALengthBeyondTheBytesWithoutAllocatingIt) {
   Bytes path = encode(nav_msgs::msg::Path());
   std::fill(path.end() - 4, path.end(), std::uint8_t{0xFF});
   EXPECT_THAT(decode_error<nav_msgs::msg::Path>(path), HasSubstr("nav_msgs/msg/Path"));
+}
+
+TEST(MessageType, RefusesABooleanThatIsNeither0Nor1) {
+  rcl_interfaces::msg::ParameterValue value;
+  value.bool_value(true);
+  value.bool_array_value({true});
+  const Bytes bytes = encode(value);
+  for (const std::size_t place : {5U, 44U}) {  // the value, and the first of the array
+    ASSERT_EQ(bytes.at(place), 1U);
+    Bytes damaged = bytes;
+    damaged[place] = 2;
+    EXPECT_EQ(decode_error<rcl_interfaces::msg::ParameterValue>(damaged),
+              "rcl_interfaces/msg/ParameterValue: a boolean is neither 0 nor 1");
+  }
 }
 
 TEST(MessageType, StampIsThatOfTheHeader) {
