@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cdr_writer.hpp"
 #include "common_packages.hpp"
 #include "panvo/interfaces/message_type.hpp"
+#include "random_message.hpp"
 
 namespace panvo::interfaces {
 namespace {
@@ -30,7 +30,7 @@ TEST(CommonInterfaces, AreLoadedWhenTheyAreAskedFor) {
 }
 
 Bytes made_up(std::size_t type_index, std::endian order, unsigned seed) {
-  CdrWriter writer(order, seed);
+  RandomMessage writer(order, seed);
   writer.message(*every_type()[type_index]->layout);
   return writer.bytes();
 }

@@ -66,8 +66,8 @@ inline const ReturnCode kOk = ReturnCode::RETCODE_OK;
 inline const Duration kInfinite = eprosima::fastrtps::c_TimeInfinite;
 #endif
 
-/// Whether participants may have flow controllers. In Fast DDS 3.0 and 3.1 their announcements then wait in a queue, and
-/// one that is due again before it is sent ends the process where assertions are compiled, as in Debian 13.
+/// Whether participants may have flow controllers. With one, Fast DDS 3.0 and 3.1 queue the participant's announcements,
+/// and abort if the same one is queued twice and they were built with assertions, as in Debian 13.
 #if defined(PANVO_FAST_DDS_3) && FASTDDS_VERSION_MAJOR == 3 && FASTDDS_VERSION_MINOR < 2
 inline constexpr bool kHasFlowControl = false;
 #else

@@ -41,8 +41,8 @@ Writer::~Writer() {
 
 bool Writer::write(const SamplePtr& sample) {
   if (matched_readers_ == 0 && !keeps_for_late_joiners_) return true;
-  // Fast DDS never removes a shared message acknowledged while another reader joins. Version 3 ends the process by an
-  // assertion (where compiled, as in Debian 13) once there is no room for a further one.
+  // Fast DDS never frees a shared message that is acknowledged while another reader joins. When the shared history is
+  // full, version 3 aborts if it was built with assertions, as in Debian 13.
   if (kIsFastDds3 && shares() && has_new_reader_.exchange(false)) forget_messages();
   Outgoing outgoing(*sample);
   for (int attempt = 0; attempt < kWriteAttempts; ++attempt) {
@@ -68,7 +68,7 @@ bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {
 void Writer::on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) {
   if (is_of_this_process(rtps::iHandle2GUID(status.last_subscription_handle))) return;
   matched_readers_ += static_cast<std::size_t>(status.current_count_change);  // unsigned wrap-around intended
-  has_new_reader_ = true;
+  if (status.current_count_change > 0) has_new_reader_ = true;
 }
 
 void Writer::on_offered_incompatible_qos(fdds::DataWriter*, const fdds::OfferedIncompatibleQosStatus& status) {

@@ -11,10 +11,10 @@
 namespace panvo::interfaces {
 
 /// Writes messages with random content from their layout alone, independently of the generated classes.
-class CdrWriter {
+class RandomMessage {
  public:
   /// The content depends on the seed only, not on the byte order.
-  CdrWriter(std::endian order, unsigned seed) : order_(order), random_(seed) {
+  RandomMessage(std::endian order, unsigned seed) : order_(order), random_(seed) {
     bytes_ = {0, static_cast<std::uint8_t>(order == std::endian::little ? 1 : 0), 0, 0};
   }
 
