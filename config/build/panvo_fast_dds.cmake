@@ -1,11 +1,20 @@
-# panvo_find_fast_dds(): finds Fast DDS 3 (Debian 13) or 2.9 to 2.11 (Debian 12) and sets PANVO_FAST_DDS to its target.
+# panvo_find_fast_dds(): finds Fast DDS 3, or 2 from 2.9 on, and sets PANVO_FAST_DDS to its target. That of a sourced ROS 2
+# comes first, as ROS 2's security and shared libraries need the same version.
 macro(panvo_find_fast_dds)
-  find_package(fastdds 3 QUIET)
-  if(fastdds_FOUND)
-    set(PANVO_FAST_DDS fastdds)
-  else()
-    find_package(fastcdr 1 REQUIRED)  # where a ROS 2 is sourced, CMake would prefer its later one
-    find_package(fastrtps 2.9...<2.12 REQUIRED)
+  find_package(fastrtps 2.9...<3 QUIET PATHS ENV AMENT_PREFIX_PATH NO_DEFAULT_PATH)
+  if(NOT fastrtps_FOUND)
+    find_package(fastdds 3 QUIET)
+  endif()
+  if(NOT fastrtps_FOUND AND NOT fastdds_FOUND)
+    find_package(fastrtps 2.13...<3 QUIET)
+  endif()
+  if(NOT fastrtps_FOUND AND NOT fastdds_FOUND)
+    find_package(fastcdr 1 REQUIRED)  # a sourced ROS 2 may have a later one without Fast DDS
+    find_package(fastrtps 2.9...<2.13 REQUIRED)
+  endif()
+  if(fastrtps_FOUND)
     set(PANVO_FAST_DDS fastrtps)
+  else()
+    set(PANVO_FAST_DDS fastdds)
   endif()
 endmacro()

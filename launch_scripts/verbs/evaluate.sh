@@ -114,7 +114,7 @@ evaluate_journey() {
         journey_usage
         return
         ;;
-      --run | --out | --library | --set | --recording | --earlier | --paper-run | --title)
+      --run | --out | --library | --set | --recording | --earlier | --paper-run | --title | --video | --video-speed)
         require_value "$@"
         case $1 in
           --run) run=$2 ;;

@@ -10,6 +10,7 @@
 #include "panvo/evaluation/input_error.hpp"
 #include "panvo/evaluation/journey_evaluation.hpp"
 #include "panvo/evaluation/journey_page.hpp"
+#include "panvo/evaluation/journey_video.hpp"
 #include "panvo/evaluation/output_file.hpp"
 #include "panvo/evaluation/plot.hpp"
 #include "panvo/evaluation/run_folder.hpp"
@@ -28,6 +29,8 @@ struct Arguments {
   std::string paper_run;
   std::string out;
   std::string title;
+  std::string video;
+  double video_speed = 4.0;
   bool only_table = false;
   bool partial = false;
 };
@@ -43,6 +46,10 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "run of the same recording with the paper's own correction, for comparison");
   app.add_option("--out", arguments.out, "folder for report.html, journey.json and pictures (default: the run folder)");
   app.add_option("--title", arguments.title, "title (default: names of recording and run)");
+  app.add_option("--video", arguments.video,
+                 "also write a video of the drive to this file (.mp4, .webm); needs ffmpeg");
+  app.add_option("--video-speed", arguments.video_speed, "speed of the video relative to the drive (default: 4)")
+      ->check(CLI::Range(0.1, 1000.0));
   app.add_flag("--partial", arguments.partial, "also accept an interrupted run");
   app.add_flag("--only-table", arguments.only_table, "only print the tables, write no files");
 }
@@ -79,6 +86,10 @@ int run(const Arguments& arguments) {
   std::cout << "\nwritten: " << (folder / "report.html").string() << " (opens in any browser), journey.json\n"
             << std::flush;
   draw_journey(report, folder);
+  if (!arguments.video.empty()) {
+    write_video(report.run, arguments.video, arguments.video_speed);
+    std::cout << "written: " << arguments.video << '\n';
+  }
   return kSuccess;
 }
 
@@ -99,7 +110,7 @@ int main(int argc, char** argv) {
   try {
     return run(arguments);
   } catch (const PlotError& error) {
-    std::cerr << "panvo evaluate journey: no pictures: " << error.what() << '\n';
+    std::cerr << "panvo evaluate journey: " << error.what() << '\n';
     return kNoPlot;
   } catch (const std::exception& error) {
     std::cerr << "panvo evaluate journey: " << error.what() << '\n';

@@ -47,9 +47,11 @@ cv::Mat turned_back(const cv::Mat& image, int shift) {
   return turned;
 }
 
-std::string jpeg(const cv::Mat& image) {
+cv::Mat band_of(const cv::Mat& image) { return image.rowRange(kTop, kBottom); }
+
+std::string jpeg(const cv::Mat& band) {
   std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", image.rowRange(kTop, kBottom), bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  cv::imencode(".jpg", band, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
   return {bytes.begin(), bytes.end()};
 }
 
@@ -78,8 +80,8 @@ PanoramaPair panorama_pair(const std::filesystem::path& landmark, const std::fil
   PanoramaPair pair;
   pair.columns = kPanorama.columns;
   pair.rows = kBottom - kTop;
-  pair.landmark_jpeg = jpeg(then);
-  pair.revisit_jpeg = jpeg(turned_back(now, shift));
+  pair.landmark_jpeg = jpeg(band_of(then));
+  pair.revisit_jpeg = jpeg(band_of(turned_back(now, shift)));
 
   const landmarks::KeypointParameters keypoints{.most = kKeypoints};
   const auto known = detect_keypoints(then, keypoints);
@@ -98,6 +100,10 @@ PanoramaPair panorama_pair(const std::filesystem::path& landmark, const std::fil
     pair.inliers.push_back({in_band(place, 0), in_band(query, shift)});
   }
   return pair;
+}
+
+cv::Mat3b panorama_band(const std::filesystem::path& file, double heading_rad) {
+  return band_of(turned_back(read(file), columns_of(heading_rad)));
 }
 
 const RecordedPanorama* panorama_near(const JourneyRecording& recording, std::int64_t stamp_ns) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,10 @@ struct PanoramaPair {
 /// `heading_rad`: yaw at the revisit minus yaw at the landmark, left positive. Throws InputError for an invalid image.
 PanoramaPair panorama_pair(const std::filesystem::path& landmark, const std::filesystem::path& revisit,
                            double heading_rad);
+
+/// The band of one panorama, rotated so that distant objects move to the left by `heading_rad`. Throws InputError for an
+/// invalid image.
+cv::Mat3b panorama_band(const std::filesystem::path& file, double heading_rad = 0.0);
 
 /// The panorama nearest to the stamp, within 0.15 s; nullptr if there is none.
 const RecordedPanorama* panorama_near(const JourneyRecording& recording, std::int64_t stamp_ns);
