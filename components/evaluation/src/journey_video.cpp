@@ -21,7 +21,7 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr int kFrames_per_s = 25;
+constexpr int kFramesPerSecond = 25;
 constexpr double kPlaceShown_s = 1.5;  // of the video
 constexpr double kStale_s = 1.0;       // of the drive: images are not shown longer
 
@@ -174,15 +174,15 @@ class Film {
 }  // namespace
 
 void write_video(const RunEvaluation& run, const std::filesystem::path& file, double speed) {
-  VideoEncoder encoder(file, kPicture, kFrames_per_s);
+  VideoEncoder encoder(file, kPicture, kFramesPerSecond);
   Film film(run, speed);
   const auto& poses = run.frames.run.binocular.poses;
-  const auto step_ns = static_cast<std::int64_t>(speed / kFrames_per_s * 1e9);
+  const auto step_ns = static_cast<std::int64_t>(speed / kFramesPerSecond * 1e9);
   for (std::int64_t stamp_ns = poses.front().stamp_ns; stamp_ns <= poses.back().stamp_ns; stamp_ns += step_ns) {
     encoder.add(film.at(stamp_ns));
   }
   const cv::Mat3b last = film.at(poses.back().stamp_ns);
-  for (int i = 0; i < kFrames_per_s; ++i) encoder.add(last);  // a second to look at the result
+  for (int i = 0; i < kFramesPerSecond; ++i) encoder.add(last);  // a second to look at the result
   encoder.finish();
 }
 
