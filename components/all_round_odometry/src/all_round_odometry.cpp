@@ -100,7 +100,7 @@ void AllRoundOdometry::search_clock(const PanoramaPoints& received) {
   const auto found = clock_search_.find(stereo_.back().stamp_ns, turns_of_stereo());
   if (!found || std::abs(*found - ahead_s_) < kOtherClock * vision::ClockSearch::kSigma_s) return;
   ahead_s_ = *found;
-  clock_doubt_.end();
+  clock_doubt_.forget();
   motion_ = PanoramicMotion(base_from_camera_);
   last_.reset();
   panoramas_.clear();
@@ -123,10 +123,10 @@ void AllRoundOdometry::doubt_clock(const PanoramaPoints& panorama) {
   const auto turns = turns_of_stereo();
   const auto turn = turns(from_ns, to_ns);
   const bool is_other = turn && std::abs(turn_in(panorama) - turn->change_rad) > kSameTurn_rad;
-  if (!is_other) clock_doubt_.end();
+  if (!is_other) clock_doubt_.agree(to_ns + ahead_ns);
   is_clock_doubtful_ =
-      !clock_search_.has_found() ||
-      (is_other && clock_doubt_.add(from_ns + ahead_ns, to_ns + ahead_ns, turn_in(panorama), kSameTurn_rad, turns));
+      !clock_search_.has_found() || (is_other && clock_doubt_.add(from_ns + ahead_ns, to_ns + ahead_ns,
+                                                                  turn_in(panorama), kSameTurn_rad, ahead_ns, turns));
 }
 
 std::optional<AllRoundPose> AllRoundOdometry::next() {

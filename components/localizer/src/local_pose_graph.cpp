@@ -180,9 +180,9 @@ void LocalPoseGraph::refresh(const OdometryBuffer& chain, std::int64_t since_ns)
   }
 }
 
-void LocalPoseGraph::set_clock(const OdometryBuffer& chain, std::int64_t ahead_ns) {
+void LocalPoseGraph::set_clock(const OdometryBuffer& chain, std::int64_t ahead_ns, std::int64_t since_ns) {
   for (auto& node : nodes_) {
-    if (node.landmark_id == 0 || node.is_of_earlier_day) continue;
+    if (node.landmark_id == 0 || node.is_of_earlier_day || node.sighting.stamp_ns <= since_ns) continue;
     const auto at = chain.at(node.sighting.stamp_ns - ahead_ns);
     if (!at) continue;
     node.map_from_base = node.map_from_base * (node.at.pose.odom_from_base.inverse() * at->pose.odom_from_base);

@@ -131,8 +131,10 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
   clock_search_ = {};
-  clock_doubt_.end();
+  clock_doubt_.forget();
+  is_clock_doubtful_ = false;
   clock_found_ns_ = INT64_MIN;
+  clock_proven_ns_ = INT64_MIN;
   graph_.set_clock_back(by_ns);
   for (auto* stamp_ns : {&unreliable_since_ns_, &doubtful_ns_, &azimuth_ns_}) {
     if (*stamp_ns) **stamp_ns -= by_ns;

@@ -16,6 +16,7 @@ constexpr double kMaxInflation =
     25.0;                              // wrong turns also cause wrong translation, by up to five times the stated error
 constexpr double kClockCaution = 9.0;  // odometry sometimes errs by more than stated, especially while turning
 constexpr double kUnknownClock_s = 0.3;  // offset, before it was searched: latency of a video stream
+constexpr double kNotableClock_s = 0.1;  // a vehicle moves half a metre in that time
 constexpr double kStraight = 0.02;       // rad/s: another time makes no difference
 constexpr double kAgree = 2.0;           // standard deviations: turns at another time
 constexpr double kOtherClock = 2.0;      // standard deviations: the filter follows smaller differences
@@ -47,7 +48,14 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
                                      .topLeftCorner<2, 2>()
                                      .trace();  // as stated by odometry, before it is inflated
   const bool is_contradicted = excess > 1.0;
-  if (!is_contradicted) clock_doubt_.end();
+  if (!is_contradicted) {
+    clock_doubt_.agree(azimuth.to_ns);
+    const bool shows_time = std::abs(rate_change) * kNotableClock_s > kAgree * std::sqrt(spread);
+    if (shows_time && is_clock_known()) {
+      clock_proven_ns_ = azimuth.to_ns;
+      is_clock_doubtful_ = false;
+    }
+  }
   if (from_ns < clock_found_ns_ || (is_contradicted && may_be_of_another_time(azimuth, kAgree * std::sqrt(spread)))) {
     azimuth_ns_ = to_ns;
     return AzimuthUse::kUnclear;
@@ -92,8 +100,10 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
 /// or if a clock that was set since explains it.
 bool Localizer::may_be_of_another_time(const AzimuthMeasurement& azimuth, double within_rad) {
   if (parameters_.clock_sigma_s == 0.0) return false;
-  return !is_clock_known() ||
-         clock_doubt_.add(azimuth.from_ns, azimuth.to_ns, azimuth.change_rad, within_rad, turns_of_odometry());
+  if (!is_clock_known()) return true;
+  is_clock_doubtful_ = clock_doubt_.add(azimuth.from_ns, azimuth.to_ns, azimuth.change_rad, within_rad,
+                                        clock_.estimate_ns(), turns_of_odometry());
+  return is_clock_doubtful_;
 }
 
 vision::ClockSearch::Reference Localizer::turns_of_odometry() const {
@@ -113,18 +123,20 @@ void Localizer::search_clock(const AzimuthMeasurement& azimuth) {
   const auto ahead_s = clock_search_.find(chain_.latest().pose.stamp_ns, turns_of_odometry());
   if (!ahead_s) return;
   if (was_known && std::abs(*ahead_s - clock_.estimate_s()) < kOtherClock * vision::ClockSearch::kSigma_s) return;
-  set_clock(*ahead_s);
+  set_clock(*ahead_s, azimuth.to_ns);
 }
 
-/// What panoramas have shown so far belongs to other times.
-void Localizer::set_clock(double ahead_s) {
+/// What panoramas have shown so far, since the clock was proven last, belongs to other times.
+void Localizer::set_clock(double ahead_s, std::int64_t panorama_stamp_ns) {
   clock_ = ClockOffset(vision::ClockSearch::kSigma_s, ahead_s);
   check_.forget();
   chain_.revert();
   clock_found_ns_ = chain_.latest().pose.stamp_ns;
-  clock_doubt_.end();
+  clock_doubt_.forget();
+  is_clock_doubtful_ = false;
   last_from_ns_.reset();
-  graph_.set_clock(chain_, clock_.estimate_ns());
+  graph_.set_clock(chain_, clock_.estimate_ns(), clock_proven_ns_);
+  clock_proven_ns_ = panorama_stamp_ns;
   graph_.solve();
   latest_ = localized(chain_.latest().pose);
 }

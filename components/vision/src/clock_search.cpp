@@ -73,12 +73,17 @@ std::optional<std::size_t> ClockSearch::best() const {
 }
 
 bool ClockDoubt::add(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double within_rad,
-                     const ClockSearch::Reference& reference) {
+                     std::int64_t known_ahead_ns, const ClockSearch::Reference& reference) {
+  const auto agrees = [&](std::int64_t reference_from_ns, std::int64_t reference_to_ns) {
+    if (reference_from_ns >= reference_to_ns) return false;
+    const auto turn = reference(reference_from_ns, reference_to_ns);
+    return turn && std::abs(wrapped(change_rad - turn->change_rad)) < within_rad;
+  };
   for (std::size_t i = 0; i < possible_.size(); ++i) {
     if (!possible_[i]) continue;
     const std::int64_t by_ns = vision::to_ns(ClockSearch::offset_s(static_cast<double>(i)));
-    const auto turn = reference(from_ns - by_ns, to_ns - by_ns);
-    possible_[i] = turn && std::abs(wrapped(change_rad - turn->change_rad)) < within_rad;
+    possible_[i] = agrees(from_ns - by_ns, to_ns - by_ns) ||
+                   (from_ns <= agreed_ns_ && agrees(from_ns - known_ahead_ns, to_ns - by_ns));
   }
   return possible_.any();
 }

@@ -32,6 +32,20 @@
 
 namespace panvo::runtime::dds {
 
+#ifdef PANVO_FAST_DDS_3
+/// Later versions want a priority, of which 0 is the default.
+template <class Sender>
+bool send_by(Sender& sender, const std::vector<rtps::NetworkBuffer>& buffers, std::uint32_t size,
+             rtps::LocatorsIterator* begin, rtps::LocatorsIterator* end,
+             const std::chrono::steady_clock::time_point& limit) {
+  if constexpr (requires { sender.send(buffers, size, begin, end, limit, 0); }) {
+    return sender.send(buffers, size, begin, end, limit, 0);
+  } else {
+    return sender.send(buffers, size, begin, end, limit);
+  }
+}
+#endif
+
 /// A transport whose outgoing messages pass unchanged.
 class ReceivingTransport : public rtps::ChainingTransport {
  public:
@@ -42,7 +56,7 @@ class ReceivingTransport : public rtps::ChainingTransport {
   bool send(rtps::SenderResource* sender, const std::vector<rtps::NetworkBuffer>& buffers, std::uint32_t size,
             rtps::LocatorsIterator* begin, rtps::LocatorsIterator* end,
             const std::chrono::steady_clock::time_point& limit) final {
-    return sender->send(buffers, size, begin, end, limit);
+    return send_by(*sender, buffers, size, begin, end, limit);
   }
 #else
   bool send(rtps::SenderResource* sender, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* begin,

@@ -13,6 +13,7 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include "panvo/runtime/test_domain.hpp"
+#include "peer_process.hpp"
 #include "raw_type.hpp"
 
 namespace panvo::runtime::test {
@@ -20,24 +21,36 @@ namespace {
 
 using Payload = RawType::Payload;
 
-/// A participant with a writer, whose readers have the filter.
+/// A participant with a writer, whose readers have the filter, and another participant with a writer.
 class RemoteOnlyFilter : public testing::Test {
  protected:
   RemoteOnlyFilter() {
     participant_->register_content_filter_factory(dds::kRemoteOnlyClass, &dds::remote_only_filters());
-    fdds::TypeSupport(new RawType("bytes")).register_type(participant_);
-    topic_ = participant_->create_topic("topic", "bytes", fdds::TOPIC_QOS_DEFAULT);
-    filtered_ = participant_->create_contentfilteredtopic("filtered", topic_, dds::kRemoteOnlyExpression, {},
-                                                          dds::kRemoteOnlyClass);
+    writer_ = open_writer(*participant_);
+    other_writer_ = open_writer(*other_);
+    filtered_ = participant_->create_contentfilteredtopic("filtered", writer_->get_topic(), dds::kRemoteOnlyExpression,
+                                                          {}, dds::kRemoteOnlyClass);
+  }
+  ~RemoteOnlyFilter() override {
+    for (auto* participant : {participant_, other_}) {
+      participant->delete_contained_entities();
+      fdds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+    }
+  }
+
+  static fdds::DomainParticipant* open_participant() {
+    return fdds::DomainParticipantFactory::get_instance()->create_participant(
+        static_cast<fdds::DomainId_t>(test_domain()), fdds::PARTICIPANT_QOS_DEFAULT);
+  }
+
+  static fdds::DataWriter* open_writer(fdds::DomainParticipant& participant) {
+    fdds::TypeSupport(new RawType("bytes")).register_type(&participant);
+    auto* topic = participant.create_topic("topic", "bytes", fdds::TOPIC_QOS_DEFAULT);
     fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
     qos.durability().kind = fdds::TRANSIENT_LOCAL_DURABILITY_QOS;
     qos.history().depth = 2;
     qos.data_sharing().off();
-    writer_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT)->create_datawriter(topic_, qos);
-  }
-  ~RemoteOnlyFilter() override {
-    participant_->delete_contained_entities();
-    fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+    return participant.create_publisher(fdds::PUBLISHER_QOS_DEFAULT)->create_datawriter(topic, qos);
   }
 
   fdds::DataReader* open_reader() {
@@ -49,12 +62,22 @@ class RemoteOnlyFilter : public testing::Test {
     return participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT)->create_datareader(filtered_, qos);
   }
 
-  bool write(Payload payload, rtps::GUID_t stated_writer) {
-    auto params = dds::written_by(stated_writer);
-    return dds::write(*writer_, &payload, params);
+  /// Writes as the runtime does.
+  static bool write(fdds::DataWriter& writer, Payload payload) {
+    auto params = dds::written_by(writer.guid());
+    return dds::write(writer, &payload, params);
   }
 
-  /// Fast DDS delivers within a process before write() returns.
+  /// Waits until the writer's reader has, or has refused, all of its messages.
+  static bool has_settled(fdds::DataWriter& writer) {
+    const auto is_matched = [&] {
+      fdds::PublicationMatchedStatus status;
+      writer.get_publication_matched_status(status);
+      return status.current_count == 1;
+    };
+    return eventually(is_matched) && writer.wait_for_acknowledgments({30, 0}) == kOk;
+  }
+
   static std::vector<Payload> taken(fdds::DataReader* reader) {
     std::vector<Payload> all;
     fdds::SampleInfo info;
@@ -62,31 +85,27 @@ class RemoteOnlyFilter : public testing::Test {
     return all;
   }
 
-  fdds::DomainParticipant* const participant_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
-      static_cast<fdds::DomainId_t>(test_domain()), fdds::PARTICIPANT_QOS_DEFAULT);
-  fdds::Topic* topic_ = nullptr;
-  fdds::ContentFilteredTopic* filtered_ = nullptr;
+  fdds::DomainParticipant* const participant_ = open_participant();
+  fdds::DomainParticipant* const other_ = open_participant();
   fdds::DataWriter* writer_ = nullptr;
+  fdds::DataWriter* other_writer_ = nullptr;
+  fdds::ContentFilteredTopic* filtered_ = nullptr;
 };
 
 TEST_F(RemoteOnlyFilter, DropsWhatAWriterOfItsParticipantWrites) {
   auto* reader = open_reader();
-  ASSERT_TRUE(write({1}, writer_->guid()));
-  EXPECT_EQ(taken(reader), std::vector<Payload>());
-  // Of an unknown writer, and as if of another participant: the reader is connected, only the filter drops messages.
-  ASSERT_TRUE(write({2}, {}));
+  ASSERT_TRUE(has_settled(*writer_) && has_settled(*other_writer_));
+  ASSERT_TRUE(write(*writer_, {1}));
+  ASSERT_TRUE(write(*other_writer_, {2}));
+  ASSERT_TRUE(has_settled(*writer_) && has_settled(*other_writer_));
   EXPECT_EQ(taken(reader), std::vector<Payload>{{2}});
-  auto other = writer_->guid();
-  ++other.guidPrefix.value[11];
-  ASSERT_TRUE(write({3}, other));
-  EXPECT_EQ(taken(reader), std::vector<Payload>{{3}});
 }
 
 TEST_F(RemoteOnlyFilter, DropsAKeptMessageForALateReader) {
-  ASSERT_TRUE(write({1}, writer_->guid()));
-  ASSERT_TRUE(write({2}, {}));
+  ASSERT_TRUE(write(*writer_, {1}));
+  ASSERT_TRUE(write(*other_writer_, {2}));
   auto* reader = open_reader();
-  ASSERT_TRUE(reader->wait_for_unread_message({30, 0}));
+  ASSERT_TRUE(has_settled(*writer_) && has_settled(*other_writer_));
   EXPECT_EQ(taken(reader), std::vector<Payload>{{2}});
 }
 

@@ -105,9 +105,9 @@ class LocalPoseGraph {
   /// Updates the nodes after a time from the chain, whose poses have changed.
   void refresh(const OdometryBuffer& chain, std::int64_t since_ns);
 
-  /// The stamps of panoramas are ahead of the odometry's by so much: moves their nodes along the path, where the chain
-  /// still covers them.
-  void set_clock(const OdometryBuffer& chain, std::int64_t ahead_ns);
+  /// The stamps of panoramas after `since_ns` are ahead of the odometry's by so much: moves their nodes along the path,
+  /// where the chain still covers them.
+  void set_clock(const OdometryBuffer& chain, std::int64_t ahead_ns, std::int64_t since_ns);
   /// Shifts all stamps of this journey back.
   void set_clock_back(std::int64_t by_ns);
 

@@ -191,7 +191,7 @@ class Localizer {
   bool agree(const PendingRelocalization& before, const PendingRelocalization& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   void search_clock(const AzimuthMeasurement& azimuth);
-  void set_clock(double ahead_s);
+  void set_clock(double ahead_s, std::int64_t panorama_stamp_ns);
   bool may_be_of_another_time(const AzimuthMeasurement& azimuth, double within_rad);
   vision::ClockSearch::Reference turns_of_odometry() const;
   void take_reference(std::int64_t panorama_stamp_ns);
@@ -206,7 +206,9 @@ class Localizer {
   ClockOffset clock_;
   vision::ClockSearch clock_search_;
   vision::ClockDoubt clock_doubt_;
-  std::int64_t clock_found_ns_ = INT64_MIN;  // odometry before that was corrected at the wrong times
+  bool is_clock_doubtful_ = false;            // it may have been set
+  std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
+  std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times
   YawScaleFilter turn_scale_;
   YawBiasDetector lean_;
   CrossCheck check_;

@@ -56,15 +56,22 @@ class ClockSearch {
 /// Whether turns that contradict the reference sensor's are those of another time, because a clock was set.
 class ClockDoubt {
  public:
-  /// A turn that contradicts the reference sensor's. Returns whether at one candidate, of those that the reference sensor
-  /// covers, this one and all others since end() agree within `within_rad`.
-  bool add(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double within_rad,
+  /// A turn that contradicts the reference sensor's, with stamps of the other clock, so far ahead by `known_ahead_ns`.
+  /// Returns whether at one candidate, of those that the reference sensor covers, this one and all others since the last
+  /// agreement agree within `within_rad`. A turn that began before that agreement may have its first stamp from before
+  /// the clock was set.
+  bool add(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double within_rad, std::int64_t known_ahead_ns,
            const ClockSearch::Reference& reference);
-  /// The turns agree.
-  void end() { possible_.set(); }
+  /// The turns agree up to this stamp of the other clock.
+  void agree(std::int64_t to_ns) {
+    possible_.set();
+    agreed_ns_ = to_ns;
+  }
+  void forget() { *this = {}; }
 
  private:
   std::bitset<ClockSearch::kCandidates> possible_ = std::bitset<ClockSearch::kCandidates>().set();
+  std::int64_t agreed_ns_ = INT64_MIN;
 };
 
 }  // namespace panvo::vision
