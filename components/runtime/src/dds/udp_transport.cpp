@@ -96,6 +96,8 @@ class Transport final : public ReceivingTransport {
   }
 
  private:
+  bool is_used(const rtps::Locator_t& remote) const override { return !rtps::IPLocator::isMulticast(remote); }
+
   const std::shared_ptr<rtps::TransportDescriptorInterface> udp_;
   const std::shared_ptr<Gate> gate_;
   // Each socket has a thread. The security manager of Fast DDS 2.9 keeps the participant it connects to in a member

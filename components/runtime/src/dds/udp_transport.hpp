@@ -9,7 +9,7 @@
 
 namespace panvo::runtime::dds {
 
-/// UDP with remedies for three faults of Fast DDS 2.9:
+/// UDP with remedies for four faults of Fast DDS 2.9:
 ///
 /// 1. A killed process does not announce its departure: its readers stay known, and receive data, until their lease
 ///    ends. When it is restarted, it has the same UDP ports, so data for the dead readers reaches the new ones. Fragments
@@ -21,6 +21,9 @@ namespace panvo::runtime::dds {
 ///    ROS 2's settings after up to 3 s. Therefore received messages wait for start_reception().
 /// 3. Announcements that are handled at the same time confuse its security manager. Therefore they are handled one at a
 ///    time.
+/// 4. To readers with a common multicast address it opens no sender for the address of each, but sends the first message
+///    to a new one there: an assertion, or undefined behaviour (mended in 2.14.5). Readers of Cyclone DDS announce such
+///    addresses. Therefore multicast addresses that others announce are not used.
 std::shared_ptr<rtps::TransportDescriptorInterface> mended_udp(std::shared_ptr<rtps::TransportDescriptorInterface> udp);
 
 /// To be called once the participant with these transports has been created.

@@ -90,5 +90,24 @@ TEST(MendedUdp, HoldsMessagesUntilReceptionStarts) {
   transport->CloseInputChannel(address);
 }
 
+bool uses(const auto& transport, const char* address) {
+  rtps::Locator_t remote, result;
+  rtps::IPLocator::setIPv4(remote, address);
+  remote.port = 7415;
+  if constexpr (requires { transport.transform_remote_locator(remote, result, true, true); }) {
+    return transport.transform_remote_locator(remote, result, true, true);
+  } else {
+    return transport.transform_remote_locator(remote, result);
+  }
+}
+
+TEST(MendedUdp, DoesNotUseMulticastAddressesOfOthers) {
+  const auto descriptor = dds::mended_udp(std::make_shared<rtps::UDPv4TransportDescriptor>());
+  const std::unique_ptr<rtps::TransportInterface> transport(descriptor->create_transport());
+  ASSERT_TRUE(transport->init());
+  EXPECT_TRUE(uses(*transport, "192.168.5.1"));
+  EXPECT_FALSE(uses(*transport, "239.255.0.1")) << "Cyclone DDS announces it for each reader";
+}
+
 }  // namespace
 }  // namespace panvo::runtime::test
