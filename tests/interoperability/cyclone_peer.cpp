@@ -2,7 +2,7 @@
 // A Cyclone DDS process started by the tests: writes the known messages, or reads messages and compares them with the
 // known ones.
 //   panvo_cyclone_peer DOMAIN write|read TYPE TOPIC COUNT reliable|best_effort volatile|transient_local
-//   panvo_cyclone_peer DOMAIN call SERVICE COUNT | serve SERVICE, see cyclone_service.hpp
+//   panvo_cyclone_peer DOMAIN call SERVICE COUNT | call_before_reading SERVICE | serve SERVICE, see cyclone_service.hpp
 // COUNT messages, numbered from 0; one numbered COUNT may precede them. Prints `matched` when its reader has a writer,
 // `right N` or `wrong N: FIELD` for each message it reads, `written` when all are written.
 #include <sys/prctl.h>
@@ -122,9 +122,15 @@ class Peer {
 
 static int use_service(int argc, char** argv) {
   const auto domain = static_cast<dds_domainid_t>(std::stoul(argv[1]));
+  const std::string verb = argv[2];
   try {
-    argc == 5 ? panvo::test::cyclone::call_service(domain, argv[3], std::stoi(argv[4]))
-              : panvo::test::cyclone::serve(domain, argv[3]);
+    if (argc == 5) {
+      panvo::test::cyclone::call_service(domain, argv[3], std::stoi(argv[4]));
+    } else if (verb == "call_before_reading") {
+      panvo::test::cyclone::call_before_reading(domain, argv[3]);
+    } else {
+      panvo::test::cyclone::serve(domain, argv[3]);
+    }
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "panvo_cyclone_peer: %s\n", error.what());

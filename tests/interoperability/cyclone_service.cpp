@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include "cyclone_services.h"
 
@@ -25,21 +27,21 @@ dds_entity_t checked(dds_entity_t entity, const std::string& what) {
 class Ends {
  public:
   Ends(dds_domainid_t domain, const std::string& name, bool is_client)
-      : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "participant")) {
-    dds_qos_t* qos = dds_create_qos();
-    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
-    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 10);
-    const auto requests =
-        topic(cyclone_services_SetBool_Request_desc, "std_srvs::srv::dds_::SetBool_Request_", "rq" + name + "Request");
-    const auto replies =
-        topic(cyclone_services_SetBool_Response_desc, "std_srvs::srv::dds_::SetBool_Response_", "rr" + name + "Reply");
-    writer = checked(dds_create_writer(participant_, is_client ? requests : replies, qos, nullptr), "writer");
-    reader = checked(dds_create_reader(participant_, is_client ? replies : requests, qos, nullptr), "reader");
-    dds_delete_qos(qos);
+      : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "participant")),
+        requests_(topic(cyclone_services_SetBool_Request_desc, "std_srvs::srv::dds_::SetBool_Request_",
+                        "rq" + name + "Request")),
+        replies_(topic(cyclone_services_SetBool_Response_desc, "std_srvs::srv::dds_::SetBool_Response_",
+                       "rr" + name + "Reply")) {
+    writer = open_writer(is_client ? requests_ : replies_, "clientid=1;");
+    reader = open_reader(is_client ? replies_ : requests_, "clientid=1;");
   }
   ~Ends() { dds_delete(participant_); }
   Ends(const Ends&) = delete;
   Ends& operator=(const Ends&) = delete;
+
+  /// Replaces the ends of a client by those of another, one by one.
+  void open_writer_of(const std::string& client) { writer = open_writer(requests_, client); }
+  void open_reader_of(const std::string& client) { reader = open_reader(replies_, client); }
 
   void wait_for(dds_entity_t entity, std::uint32_t status) const {
     checked(dds_set_status_mask(entity, status), "status mask");
@@ -73,7 +75,23 @@ class Ends {
     return checked(dds_create_topic(participant_, &descriptor, name.c_str(), nullptr, nullptr), "topic");
   }
 
-  dds_entity_t participant_;
+  static dds_qos_t* qos(const std::string& user_data) {
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 10);
+    dds_qset_userdata(qos, user_data.data(), user_data.size());
+    return qos;
+  }
+  dds_entity_t open_writer(dds_entity_t topic, const std::string& user_data) const {
+    const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> wanted(qos(user_data), dds_delete_qos);
+    return checked(dds_create_writer(participant_, topic, wanted.get(), nullptr), "writer");
+  }
+  dds_entity_t open_reader(dds_entity_t topic, const std::string& user_data) const {
+    const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> wanted(qos(user_data), dds_delete_qos);
+    return checked(dds_create_reader(participant_, topic, wanted.get(), nullptr), "reader");
+  }
+
+  const dds_entity_t participant_, requests_, replies_;
 };
 
 }  // namespace
@@ -95,6 +113,20 @@ void call_service(dds_domainid_t domain, const std::string& name, int count) {
     std::fflush(stdout);
     dds_return_loan(ends.reader, &message, 1);
   }
+}
+
+void call_before_reading(dds_domainid_t domain, const std::string& name) {
+  Ends ends(domain, name, true);
+  ends.wait_for(ends.reader, DDS_SUBSCRIPTION_MATCHED_STATUS);
+  ends.open_writer_of("clientid=2;");
+  ends.wait_for(ends.writer, DDS_PUBLICATION_MATCHED_STATUS);
+  Request request{.client = 2, .number = 7, .data = true};
+  checked(dds_write(ends.writer, &request), "write");
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // long enough for a premature reply to get lost
+  ends.open_reader_of("clientid=2;");
+  void* message = ends.take();
+  std::printf("answer %lld\n", static_cast<long long>(static_cast<const Response*>(message)->number));
+  dds_return_loan(ends.reader, &message, 1);
 }
 
 void serve(dds_domainid_t domain, const std::string& name) {

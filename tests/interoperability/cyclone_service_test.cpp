@@ -45,6 +45,13 @@ TEST_F(CycloneService, IsAnsweredByUsWithTheNumbersOfItsRequests) {
   EXPECT_EQ(service->counters().malformed, 0U);
 }
 
+TEST_F(CycloneService, IsAnsweredOnceTheReaderOfThatClientIsKnown) {
+  const auto service = serve();
+  Process calling({CYCLONE_PEER, std::to_string(domain_), "call_before_reading", kService.name});
+  EXPECT_EQ(calling.wait(kLimit), 0) << calling.output();
+  EXPECT_THAT(calling.output(), HasSubstr("answer 7\n"));
+}
+
 TEST_F(CycloneService, IsKnownToCallFromThisHost) {
   std::atomic<int> from_here = 0, from_elsewhere = 0;
   const auto service = serve([&](const auto&, const runtime::Caller& caller) {

@@ -124,9 +124,9 @@ void AllRoundOdometry::doubt_clock(const PanoramaPoints& panorama) {
   const auto turn = turns(from_ns, to_ns);
   const bool is_other = turn && std::abs(turn_in(panorama) - turn->change_rad) > kSameTurn_rad;
   if (!is_other) clock_doubt_.agree(to_ns + ahead_ns);
-  is_clock_doubtful_ =
-      !clock_search_.has_found() || (is_other && clock_doubt_.add(from_ns + ahead_ns, to_ns + ahead_ns,
-                                                                  turn_in(panorama), kSameTurn_rad, ahead_ns, turns));
+  is_clock_doubtful_ = !clock_search_.has_found() ||
+                       (is_other && clock_doubt_.add(from_ns + ahead_ns, to_ns + ahead_ns, turn_in(panorama),
+                                                     kSameTurn_rad, ahead_ns, stereo_.back().stamp_ns, turns));
 }
 
 std::optional<AllRoundPose> AllRoundOdometry::next() {

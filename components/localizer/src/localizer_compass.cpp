@@ -50,8 +50,10 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const bool is_contradicted = excess > 1.0;
   if (!is_contradicted) {
     clock_doubt_.agree(azimuth.to_ns);
-    const bool shows_time = std::abs(rate_change) * kNotableClock_s > kAgree * std::sqrt(spread);
-    if (shows_time && is_clock_known()) {
+    const bool agrees = std::abs(disagreement) < kAgree * std::sqrt(spread);
+    const bool would_show =
+        std::abs(rate_change) * kNotableClock_s > parameters_.contradiction_sigmas * std::sqrt(spread);
+    if (agrees && would_show && is_clock_known()) {
       clock_proven_ns_ = azimuth.to_ns;
       is_clock_doubtful_ = false;
     }
@@ -62,10 +64,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   }
   const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
   const auto wrong = check_.add_turns(chain_, stretch, disagreement, is_contradicted);
-  if (wrong == Wrong::kOdometry) {
-    chain_.inflate_covariance(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12),
-                              kMaxInflation);
-  }
+  if (wrong == Wrong::kOdometry) inflate(from_ns, to_ns, disagreement);
   if (wrong != Wrong::kPanoramas) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
   const auto unsure_since_ns = check_.add_ways(chain_, stretch, azimuth, way_variance_m2);
   if (unsure_since_ns) doubtful_ns_ = to_ns;
@@ -101,9 +100,11 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
 bool Localizer::may_be_of_another_time(const AzimuthMeasurement& azimuth, double within_rad) {
   if (parameters_.clock_sigma_s == 0.0) return false;
   if (!is_clock_known()) return true;
-  is_clock_doubtful_ = clock_doubt_.add(azimuth.from_ns, azimuth.to_ns, azimuth.change_rad, within_rad,
-                                        clock_.estimate_ns(), turns_of_odometry());
-  return is_clock_doubtful_;
+  const bool is_explained = clock_doubt_.add(azimuth.from_ns, azimuth.to_ns, azimuth.change_rad, within_rad,
+                                             clock_.estimate_ns(), chain_.latest().pose.stamp_ns, turns_of_odometry());
+  if (is_explained && !is_clock_doubtful_) clock_search_.forget_turns();
+  is_clock_doubtful_ |= is_explained;  // until a turn proves the clock, or its new offset is found
+  return is_explained;
 }
 
 vision::ClockSearch::Reference Localizer::turns_of_odometry() const {
@@ -122,8 +123,11 @@ void Localizer::search_clock(const AzimuthMeasurement& azimuth) {
   const bool was_known = is_clock_known();
   const auto ahead_s = clock_search_.find(chain_.latest().pose.stamp_ns, turns_of_odometry());
   if (!ahead_s) return;
-  if (was_known && std::abs(*ahead_s - clock_.estimate_s()) < kOtherClock * vision::ClockSearch::kSigma_s) return;
-  set_clock(*ahead_s, azimuth.to_ns);
+  if (was_known && std::abs(*ahead_s - clock_.estimate_s()) < kOtherClock * vision::ClockSearch::kSigma_s) {
+    is_clock_doubtful_ = false;
+  } else {
+    set_clock(*ahead_s, azimuth.to_ns);
+  }
 }
 
 /// What panoramas have shown so far, since the clock was proven last, belongs to other times.
@@ -164,13 +168,19 @@ std::optional<YawBiasDetector::Stretch> Localizer::add_to_lean(YawBiasDetector::
 /// Replaces the turns of a biased stretch of odometry by the compass.
 void Localizer::straighten(const YawBiasDetector::Stretch& lean) {
   const auto leaning = chain_.turn(lean.from_ns, lean.to_ns);
-  const double wrong_rad2 = lean.disagreement_rad * lean.disagreement_rad;
-  if (leaning && leaning->variance_rad2 < wrong_rad2) {
-    chain_.inflate_covariance(lean.from_ns, lean.to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12),
-                              kMaxInflation);
+  if (leaning && leaning->variance_rad2 < lean.disagreement_rad * lean.disagreement_rad) {
+    inflate(lean.from_ns, lean.to_ns, lean.disagreement_rad);
   }
   fuse(lean.from_ns, lean.to_ns, lean.compass_rad, lean.compass_variance_rad2);
   graph_.refresh(chain_, lean.from_ns);
+}
+
+/// Raises the variance of the odometry's turn to the square of what it disagrees by.
+void Localizer::inflate(std::int64_t from_ns, std::int64_t to_ns, double disagreement_rad) {
+  const auto turn = chain_.turn(from_ns, to_ns);
+  if (!turn) return;
+  const double ratio = disagreement_rad * disagreement_rad / std::max(turn->variance_rad2, 1e-12);
+  chain_.inflate_covariance(from_ns, to_ns, ratio, kMaxInflation);
 }
 
 /// Fuses a turn with the odometry's, by variance. The chain sums variances as if turns had independent errors.

@@ -246,8 +246,11 @@ INSTANTIATE_TEST_SUITE_P(Offsets, LocalizerWithOtherClock, testing::Values(0.0, 
                          [](const auto& of) { return "At" + std::to_string(of.index); });
 
 TEST(LocalizerWithCompass, BelievesNoTurnOfAnotherTimeWhenTheClockIsSetOnTheWay) {
+  constexpr double kBuilt_s = 117.0;
   Winding winding;
-  winding.drive(1, 500, 0.0);
+  winding.drive(1, 490, 0.0);
+  EXPECT_TRUE(winding.localizer.add_built(1, Winding::ns(kBuilt_s)));
+  winding.drive(490, 500, 0.0);
   for (const double ahead_s : {0.2, -0.2}) {
     Winding set = winding;
     set.uses.clear();
@@ -257,6 +260,26 @@ TEST(LocalizerWithCompass, BelievesNoTurnOfAnotherTimeWhenTheClockIsSetOnTheWay)
     EXPECT_NEAR(set.localizer.panorama_clock().estimate_s(), ahead_s, 0.003);
     const double error_rad = yaw_of(set.localizer.latest().map_from_base.linear()) - Winding::yaw(135.96);
     EXPECT_LT(std::abs(error_rad), 0.01);
+    const auto& built = set.localizer.landmarks().at(0).map_from_base;
+    EXPECT_NEAR(built.translation().x(), Winding::kSpeed * (kBuilt_s - 100.0), 0.05) << "before the clock was set";
+  }
+}
+
+TEST(LocalizerWithCompass, BelievesNoTurnBetweenPanoramasBeforeAndAfterTheClockIsSet) {
+  Winding winding;
+  winding.drive(1, 475, 0.0);
+  // While turning at 0.4 rad/s: another 0.2 s are 0.08 rad.
+  const double taken = 118.4, reference = taken - 0.6;
+  ASSERT_GT(std::abs(Winding::yaw(taken + 0.1) - Winding::yaw(taken - 0.1)), 0.07);
+  for (const double ahead_s : {0.2, -0.2}) {
+    Winding set = winding;
+    const double change_rad = Winding::yaw(taken) - Winding::yaw(reference);
+    EXPECT_EQ(
+        set.localizer.add(AzimuthMeasurement{Winding::ns(reference), Winding::ns(taken + ahead_s), change_rad, 1e-6}),
+        AzimuthUse::kUnclear);
+    // No other time explains 0.4 rad more.
+    EXPECT_NE(set.localizer.add(AzimuthMeasurement{Winding::ns(reference), Winding::ns(taken), change_rad + 0.4, 1e-6}),
+              AzimuthUse::kUnclear);
   }
 }
 

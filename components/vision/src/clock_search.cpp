@@ -11,12 +11,14 @@ namespace panvo::vision {
 namespace {
 
 constexpr std::size_t kMaxPending = 64;
-constexpr double kKept = 0.995;       // of the costs per turn: about 40 s of panoramas at 5 Hz
-constexpr double kMaxCost = 9.0;      // per turn: a wrong one decides nothing
-constexpr double kClear = 60.0;       // excess of a cost that excludes a candidate: seven turns or more
-constexpr std::size_t kNear = 4;      // steps: candidates that need not be excluded
-constexpr double kLeast_rad = 0.003;  // standard deviation that no turn falls below
-constexpr double kScale = 0.02;       // relative error of a turn by an aged calibration
+constexpr double kKept = 0.995;                 // of the costs per turn: about 40 s of panoramas at 5 Hz
+constexpr double kMaxCost = 9.0;                // per turn: a wrong one decides nothing
+constexpr double kClear = 60.0;                 // excess of a cost that excludes a candidate: seven turns or more
+constexpr std::size_t kNear = 4;                // steps: candidates that need not be excluded
+constexpr double kLeast_rad = 0.003;            // standard deviation that no turn falls below
+constexpr double kScale = 0.02;                 // relative error of a turn by an aged calibration
+constexpr std::size_t kMaxContradictions = 10;  // two seconds of panoramas
+constexpr std::int64_t kSoon_ns = 100'000'000;  // that the reference sensor may lack: its turn is extrapolated
 
 }  // namespace
 
@@ -73,19 +75,28 @@ std::optional<std::size_t> ClockSearch::best() const {
 }
 
 bool ClockDoubt::add(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double within_rad,
-                     std::int64_t known_ahead_ns, const ClockSearch::Reference& reference) {
-  const auto agrees = [&](std::int64_t reference_from_ns, std::int64_t reference_to_ns) {
-    if (reference_from_ns >= reference_to_ns) return false;
-    const auto turn = reference(reference_from_ns, reference_to_ns);
-    return turn && std::abs(wrapped(change_rad - turn->change_rad)) < within_rad;
+                     std::int64_t known_ahead_ns, std::int64_t latest_ns, const ClockSearch::Reference& reference) {
+  contradictions_.push_back({from_ns, to_ns, change_rad, within_rad});
+  if (contradictions_.size() > kMaxContradictions) contradictions_.pop_front();
+  const auto recent = reference(latest_ns - kSoon_ns, latest_ns);
+  const auto is_explained = [&](const Contradiction& turn, std::int64_t first_ns, std::int64_t last_ns) {
+    const std::int64_t missing_ns = std::max<std::int64_t>(0, last_ns - latest_ns);
+    if (first_ns >= last_ns - missing_ns || missing_ns > kSoon_ns || (missing_ns > 0 && !recent)) return false;
+    const auto measured = reference(first_ns, last_ns - missing_ns);
+    if (!measured) return false;
+    const double missing_rad =
+        missing_ns > 0 ? recent->change_rad * static_cast<double>(missing_ns) / static_cast<double>(kSoon_ns) : 0.0;
+    return std::abs(wrapped(turn.change_rad - measured->change_rad - missing_rad)) < turn.within_rad;
   };
-  for (std::size_t i = 0; i < possible_.size(); ++i) {
-    if (!possible_[i]) continue;
+  for (std::size_t i = 0; i < ClockSearch::kCandidates; ++i) {
     const std::int64_t by_ns = vision::to_ns(ClockSearch::offset_s(static_cast<double>(i)));
-    possible_[i] = agrees(from_ns - by_ns, to_ns - by_ns) ||
-                   (from_ns <= agreed_ns_ && agrees(from_ns - known_ahead_ns, to_ns - by_ns));
+    const bool explains_all = std::ranges::all_of(contradictions_, [&](const Contradiction& turn) {
+      return is_explained(turn, turn.from_ns - by_ns, turn.to_ns - by_ns) ||
+             (turn.from_ns <= agreed_ns_ && is_explained(turn, turn.from_ns - known_ahead_ns, turn.to_ns - by_ns));
+    });
+    if (explains_all) return true;
   }
-  return possible_.any();
+  return false;
 }
 
 }  // namespace panvo::vision

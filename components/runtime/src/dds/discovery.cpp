@@ -34,15 +34,17 @@ interfaces::Qos qos_of(const FoundEndpoint& endpoint) {
   return qos;
 }
 
-// ROS 2 puts "typehash=RIHS01_...;" into the user data.
-std::string type_hash(const std::vector<rtps::octet>& user_data) {
-  constexpr std::string_view kKey = "typehash=";
+// ROS 2 puts "typehash=RIHS01_...;" into the user data; on Cyclone DDS, both endpoints of a client have the same
+// "clientid=...;".
+std::string value_in(const std::vector<rtps::octet>& user_data, std::string_view key) {
   const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
-  const auto begin = text.find(kKey);
+  const auto begin = text.find(key);
   if (begin == std::string_view::npos) return "";
-  const auto value = text.substr(begin + kKey.size());
+  const auto value = text.substr(begin + key.size());
   return std::string(value.substr(0, value.find(';')));
 }
+std::string type_hash(const FoundEndpoint& found) { return value_in(found.user_data, "typehash="); }
+std::string client(const FoundEndpoint& found) { return value_in(found.user_data, "clientid="); }
 
 // An endpoint with ROS 2 names.
 GraphEndpoint shown(const FoundEndpoint& found, bool is_writer) {
@@ -51,7 +53,7 @@ GraphEndpoint shown(const FoundEndpoint& found, bool is_writer) {
                          .type_name = found.type_name,
                          .is_writer = is_writer,
                          .qos = qos_of(found),
-                         .type_hash = type_hash(found.user_data),
+                         .type_hash = type_hash(found),
                          .gid = hexadecimal(found.guid)};
   const auto type_name = type_name_from_wire(found.type_name);
   if (!type_name) return endpoint;
@@ -116,6 +118,12 @@ bool Discovery::is_of_cyclone_here(const rtps::GuidPrefix_t& participant) const 
   return found != remote_participants_.end() && found->second.is_here;
 }
 
+std::string Discovery::client_of(const rtps::GUID_t& endpoint) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = remote_endpoints_.find(endpoint);
+  return found == remote_endpoints_.end() ? "" : found->second.client;
+}
+
 bool Discovery::has_sharing_reader(const std::string& wire_name) const {
   const std::lock_guard lock(mutex_);
   return std::ranges::any_of(remote_endpoints_, [&](const auto& known) {
@@ -172,7 +180,7 @@ void Discovery::on_writer(const FoundEndpoint& found) {
     remote_endpoints_.erase(found.guid);
     return;
   }
-  const RemoteEndpoint remote{{found.topic_name, found.type_name}, shown(found, true)};
+  const RemoteEndpoint remote{{found.topic_name, found.type_name}, shown(found, true), client(found)};
   remember(found.guid, remote);
   const auto& [kind, name, type_name, is_writer, qos, hash, gid] = remote.shown;
   if (kind == EndpointKind::kTopic) announce({name, type_name, qos, interfaces::find_message_type(type_name)});
@@ -182,6 +190,7 @@ void Discovery::on_reader(const FoundEndpoint& found) {
   if (is_of_this_process(found.guid)) return;
   const RemoteEndpoint remote{{found.topic_name, found.type_name},
                               shown(found, false),
+                              client(found),
                               is_in_neighbourhood(found.data_sharing),
                               found.filter_class != kRemoteOnlyClass};
   std::function<void(const rtps::GUID_t&, NodesReader)> on_nodes_reader;

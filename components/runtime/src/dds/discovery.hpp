@@ -39,6 +39,8 @@ class Discovery final : public DiscoveryListener {
   bool is_of_cyclone(const rtps::GuidPrefix_t& participant) const;
   /// Whether a participant of Cyclone DDS is on this host, by its addresses.
   bool is_of_cyclone_here(const rtps::GuidPrefix_t& participant) const;
+  /// Which client of ROS 2 on Cyclone DDS an endpoint is of; empty if it does not say.
+  std::string client_of(const rtps::GUID_t& endpoint) const;
   /// Whether a reader on this machine shares memory with us on the topic.
   bool has_sharing_reader(const std::string& wire_name) const;
 
@@ -66,6 +68,7 @@ class Discovery final : public DiscoveryListener {
   struct RemoteEndpoint {
     TypedTopic topic;
     GraphEndpoint shown;
+    std::string client;
     bool shares = false;      // memory with us
     bool is_foreign = false;  // a reader of another program, or with a discovery server any
   };

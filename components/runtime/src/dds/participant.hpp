@@ -51,6 +51,9 @@ class Participant : public std::enable_shared_from_this<Participant> {
   /// Whether an endpoint of another process is of Cyclone DDS.
   bool is_of_cyclone(const rtps::GUID_t& endpoint) const { return discovery_->is_of_cyclone(endpoint.guidPrefix); }
 
+  /// Which client of ROS 2 on Cyclone DDS an endpoint is of; empty if it does not say.
+  std::string client_of(const rtps::GUID_t& endpoint) const { return discovery_->client_of(endpoint); }
+
   /// Whether an endpoint of another process claims to be on this host; never with DDS Security. See same_host.hpp.
   bool is_on_this_host(const rtps::GUID_t& endpoint) const {
     return is_on_same_host(guid(), endpoint) ||

@@ -169,8 +169,11 @@ void ServiceServer::answer(const interfaces::Bytes& request, const Asker& asker)
 
 bool ServiceServer::is_reachable(const Asker& asker) const {
   const rtps::GUID_t& client = asker.identity.writer_guid();
-  if (asker.header) {
-    return clients_.contains_any([&](const rtps::GUID_t& reader) { return reader.guidPrefix == client.guidPrefix; });
+  if (asker.header) {  // names no reader; a process may have several clients
+    const std::string id = readers_->client_of(client);
+    return clients_.contains_any([&](const rtps::GUID_t& reader) {
+      return reader.guidPrefix == client.guidPrefix && writers_->client_of(reader) == id;
+    });
   }
   return !is_reader(client) || clients_.contains(client);
 }

@@ -197,6 +197,7 @@ class Localizer {
   void take_reference(std::int64_t panorama_stamp_ns);
   std::optional<YawBiasDetector::Stretch> add_to_lean(YawBiasDetector::Stretch turn);
   void straighten(const YawBiasDetector::Stretch& lean);
+  void inflate(std::int64_t from_ns, std::int64_t to_ns, double disagreement_rad);
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
   void slew(const Eigen::Isometry3d& step);
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -37,6 +36,12 @@ class ClockSearch {
   /// other clock is ahead, s, once the turns exclude all other candidates; then starts again.
   std::optional<double> find(std::int64_t latest_ns, const Reference& reference);
 
+  /// The clock may have been set: turns so far no longer count.
+  void forget_turns() {
+    pending_.clear();
+    cost_ = {};
+  }
+
   /// Whether an offset was found so far, large or not.
   bool has_found() const noexcept { return has_found_; }
 
@@ -57,20 +62,24 @@ class ClockSearch {
 class ClockDoubt {
  public:
   /// A turn that contradicts the reference sensor's, with stamps of the other clock, so far ahead by `known_ahead_ns`.
-  /// Returns whether at one candidate, of those that the reference sensor covers, this one and all others since the last
-  /// agreement agree within `within_rad`. A turn that began before that agreement may have its first stamp from before
+  /// Returns whether one candidate explains it and all others since the last agreement, by turns of the reference sensor
+  /// up to `latest_ns` or a little later. A turn that began before that agreement may have its first stamp from before
   /// the clock was set.
   bool add(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double within_rad, std::int64_t known_ahead_ns,
-           const ClockSearch::Reference& reference);
+           std::int64_t latest_ns, const ClockSearch::Reference& reference);
   /// The turns agree up to this stamp of the other clock.
   void agree(std::int64_t to_ns) {
-    possible_.set();
+    contradictions_.clear();
     agreed_ns_ = to_ns;
   }
   void forget() { *this = {}; }
 
  private:
-  std::bitset<ClockSearch::kCandidates> possible_ = std::bitset<ClockSearch::kCandidates>().set();
+  struct Contradiction {
+    std::int64_t from_ns, to_ns;
+    double change_rad, within_rad;
+  };
+  std::deque<Contradiction> contradictions_;
   std::int64_t agreed_ns_ = INT64_MIN;
 };
 
