@@ -48,16 +48,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
                                      .topLeftCorner<2, 2>()
                                      .trace();  // as stated by odometry, before it is inflated
   const bool is_contradicted = excess > 1.0;
-  if (!is_contradicted) {
-    clock_doubt_.agree(azimuth.to_ns);
-    const bool agrees = std::abs(disagreement) < kAgree * std::sqrt(spread);
-    const bool would_show =
-        std::abs(rate_change) * kNotableClock_s > parameters_.contradiction_sigmas * std::sqrt(spread);
-    if (agrees && would_show && is_clock_known()) {
-      clock_proven_ns_ = azimuth.to_ns;
-      is_clock_doubtful_ = false;
-    }
-  }
+  if (!is_contradicted) agree(azimuth.to_ns, disagreement, rate_change, std::sqrt(spread));
   if (from_ns < clock_found_ns_ || (is_contradicted && may_be_of_another_time(azimuth, kAgree * std::sqrt(spread)))) {
     azimuth_ns_ = to_ns;
     return AzimuthUse::kUnclear;
@@ -93,6 +84,17 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   latest_ = localized(chain_.latest().pose);
   if (wrong == Wrong::kPanoramas) return AzimuthUse::kDoubted;
   return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
+}
+
+/// A turn agrees with the odometry's. It proves the clock if it would not with another time.
+void Localizer::agree(std::int64_t panorama_stamp_ns, double disagreement_rad, double rate_change_rad_s,
+                      double sigma_rad) {
+  clock_doubt_.agree(panorama_stamp_ns);
+  const bool would_contradict =
+      std::abs(rate_change_rad_s) * kNotableClock_s > parameters_.contradiction_sigmas * sigma_rad;
+  if (!is_clock_known() || !would_contradict || std::abs(disagreement_rad) > kAgree * sigma_rad) return;
+  clock_proven_ns_ = panorama_stamp_ns;
+  is_clock_doubtful_ = false;
 }
 
 /// Adds a turn that contradicts the odometry. Returns whether it may be one at another time: before the clock is known,

@@ -18,7 +18,7 @@ constexpr std::size_t kNear = 4;                // steps: candidates that need n
 constexpr double kLeast_rad = 0.003;            // standard deviation that no turn falls below
 constexpr double kScale = 0.02;                 // relative error of a turn by an aged calibration
 constexpr std::size_t kMaxContradictions = 10;  // two seconds of panoramas
-constexpr std::int64_t kSoon_ns = 100'000'000;  // that the reference sensor may lack: its turn is extrapolated
+constexpr std::int64_t kSoon_ns = 100'000'000;  // of turn that the reference sensor may lack: extrapolated
 
 }  // namespace
 

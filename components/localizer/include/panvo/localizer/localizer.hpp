@@ -192,6 +192,7 @@ class Localizer {
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   void search_clock(const AzimuthMeasurement& azimuth);
   void set_clock(double ahead_s, std::int64_t panorama_stamp_ns);
+  void agree(std::int64_t panorama_stamp_ns, double disagreement_rad, double rate_change_rad_s, double sigma_rad);
   bool may_be_of_another_time(const AzimuthMeasurement& azimuth, double within_rad);
   vision::ClockSearch::Reference turns_of_odometry() const;
   void take_reference(std::int64_t panorama_stamp_ns);
