@@ -50,27 +50,15 @@ bool send_by(Sender& sender, const std::vector<rtps::NetworkBuffer>& buffers, st
 class ReceivingTransport : public rtps::ChainingTransport {
  public:
   using ChainingTransport::ChainingTransport;
-  using ChainingTransport::transform_remote_locator;
 
  private:
-  /// Whether to send to this announced address of another participant.
-  virtual bool is_used(const rtps::Locator_t& remote) const = 0;
-
 #ifdef PANVO_FAST_DDS_3
-  bool transform_remote_locator(const rtps::Locator_t& remote, rtps::Locator_t& result, bool may_theirs_be_localhost,
-                                bool may_ours_be_localhost) const final {
-    return is_used(remote) &&
-           ChainingTransport::transform_remote_locator(remote, result, may_theirs_be_localhost, may_ours_be_localhost);
-  }
   bool send(rtps::SenderResource* sender, const std::vector<rtps::NetworkBuffer>& buffers, std::uint32_t size,
             rtps::LocatorsIterator* begin, rtps::LocatorsIterator* end,
             const std::chrono::steady_clock::time_point& limit) final {
     return send_by(*sender, buffers, size, begin, end, limit);
   }
 #else
-  bool transform_remote_locator(const rtps::Locator_t& remote, rtps::Locator_t& result) const final {
-    return is_used(remote) && ChainingTransport::transform_remote_locator(remote, result);
-  }
   bool send(rtps::SenderResource* sender, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* begin,
             rtps::LocatorsIterator* end, const std::chrono::steady_clock::time_point& limit) final {
     return sender->send(bytes, size, begin, end, limit);

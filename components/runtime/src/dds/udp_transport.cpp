@@ -80,6 +80,22 @@ class Transport final : public ReceivingTransport {
   bool OpenOutputChannel(rtps::SendResourceList& senders, const rtps::Locator_t& locator) override {
     return low_level_transport_->OpenOutputChannel(senders, locator);
   }
+  /// Chooses the own addresses of each reader, also if several readers share a multicast address.
+  void select_locators(rtps::LocatorSelector& selector) const override {
+    auto& readers = selector.transport_starts();
+    for (std::size_t i = 0; i < readers.size(); ++i) {
+      if (!readers[i]->transport_should_process) continue;
+      const auto choose = [&](const auto& addresses, auto& chosen) {
+        for (std::size_t j = 0; j < addresses.size(); ++j) {
+          if (!IsLocatorSupported(addresses[j]) || selector.is_selected(addresses[j])) continue;
+          chosen.push_back(j);
+          selector.select(i);
+        }
+      };
+      choose(readers[i]->unicast, readers[i]->state.unicast);
+      if (readers[i]->unicast.empty()) choose(readers[i]->multicast, readers[i]->state.multicast);
+    }
+  }
   void receive(rtps::TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
                const rtps::Locator_t& local, const rtps::Locator_t& remote) override {
     gate_->wait();
@@ -96,8 +112,6 @@ class Transport final : public ReceivingTransport {
   }
 
  private:
-  bool is_used(const rtps::Locator_t& remote) const override { return !rtps::IPLocator::isMulticast(remote); }
-
   const std::shared_ptr<rtps::TransportDescriptorInterface> udp_;
   const std::shared_ptr<Gate> gate_;
   // Each socket has a thread. The security manager of Fast DDS 2.9 keeps the participant it connects to in a member

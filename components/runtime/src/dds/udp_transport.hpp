@@ -23,7 +23,7 @@ namespace panvo::runtime::dds {
 ///    time.
 /// 4. To readers with a common multicast address it opens no sender for the address of each, but sends the first message
 ///    to a new one there: an assertion, or undefined behaviour (mended in 2.14.5). Readers of Cyclone DDS announce such
-///    addresses. Therefore multicast addresses that others announce are not used.
+///    addresses. Therefore a reader's own addresses are preferred.
 std::shared_ptr<rtps::TransportDescriptorInterface> mended_udp(std::shared_ptr<rtps::TransportDescriptorInterface> udp);
 
 /// To be called once the participant with these transports has been created.

@@ -11,6 +11,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "peer_process.hpp"
 
@@ -90,23 +91,34 @@ TEST(MendedUdp, HoldsMessagesUntilReceptionStarts) {
   transport->CloseInputChannel(address);
 }
 
-bool uses(const auto& transport, const char* address) {
-  rtps::Locator_t remote, result;
-  rtps::IPLocator::setIPv4(remote, address);
-  remote.port = 7415;
-  if constexpr (requires { transport.transform_remote_locator(remote, result, true, true); }) {
-    return transport.transform_remote_locator(remote, result, true, true);
-  } else {
-    return transport.transform_remote_locator(remote, result);
-  }
+rtps::Locator_t address_of(const char* address, std::uint32_t port) {
+  rtps::Locator_t locator;
+  rtps::IPLocator::setIPv4(locator, address);
+  locator.port = port;
+  return locator;
 }
 
-TEST(MendedUdp, DoesNotUseMulticastAddressesOfOthers) {
+TEST(MendedUdp, SendsToEachReaderThoughAllShareAMulticastAddress) {
   const auto descriptor = dds::mended_udp(std::make_shared<rtps::UDPv4TransportDescriptor>());
   const std::unique_ptr<rtps::TransportInterface> transport(descriptor->create_transport());
   ASSERT_TRUE(transport->init());
-  EXPECT_TRUE(uses(*transport, "192.168.5.1"));
-  EXPECT_FALSE(uses(*transport, "239.255.0.1")) << "Cyclone DDS announces it for each reader";
+  rtps::LocatorSelector selector({});
+  std::vector<rtps::LocatorSelectorEntry> readers(3, {4, 1});
+  const std::vector<std::uint32_t> ports{7411, 7413, 7411};  // the third is of the process of the first
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    readers[i].remote_guid.guidPrefix.value[0] = static_cast<rtps::octet>(i + 1);
+    readers[i].remote_guid.entityId = 4;
+    readers[i].unicast.push_back(address_of("127.0.0.1", ports[i]));
+    readers[i].multicast.push_back(address_of("239.255.0.1", 7401));
+    selector.add_entry(&readers[i]);
+  }
+  selector.reset(true);
+  selector.selection_start();
+  transport->select_locators(selector);
+  EXPECT_TRUE(selector.is_selected(address_of("127.0.0.1", 7411)));
+  EXPECT_TRUE(selector.is_selected(address_of("127.0.0.1", 7413)));
+  EXPECT_FALSE(selector.is_selected(address_of("239.255.0.1", 7401)));
+  EXPECT_EQ(selector.selected_size(), 2U) << "each address once";
 }
 
 }  // namespace
