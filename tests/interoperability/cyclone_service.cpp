@@ -6,7 +6,6 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
-#include <thread>
 
 #include "cyclone_services.h"
 
@@ -43,15 +42,20 @@ class Ends {
   void open_writer_of(const std::string& client) { writer = open_writer(requests_, client); }
   void open_reader_of(const std::string& client) { reader = open_reader(replies_, client); }
 
-  void wait_for(dds_entity_t entity, std::uint32_t status) const {
+  /// Whether the status changes within the time.
+  bool comes(dds_entity_t entity, std::uint32_t status, dds_duration_t limit) const {
     checked(dds_set_status_mask(entity, status), "status mask");
     const dds_entity_t waitset = checked(dds_create_waitset(participant_), "waitset");
     checked(dds_waitset_attach(waitset, entity, 0), "waitset");
-    const auto triggered = checked(dds_waitset_wait(waitset, nullptr, 0, kLimit), "wait");
+    const auto triggered = checked(dds_waitset_wait(waitset, nullptr, 0, limit), "wait");
     dds_delete(waitset);
-    if (triggered == 0) throw std::runtime_error("nothing came");
     std::uint32_t taken = 0;
     dds_take_status(entity, &taken, status);
+    return triggered > 0;
+  }
+
+  void wait_for(dds_entity_t entity, std::uint32_t status) const {
+    if (!comes(entity, status, kLimit)) throw std::runtime_error("nothing came");
   }
 
   /// Takes the next message; it must be returned with dds_return_loan.
@@ -122,7 +126,9 @@ void call_before_reading(dds_domainid_t domain, const std::string& name) {
   ends.wait_for(ends.writer, DDS_PUBLICATION_MATCHED_STATUS);
   Request request{.client = 2, .number = 7, .data = true};
   checked(dds_write(ends.writer, &request), "write");
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // long enough for a premature reply to get lost
+  // A reply that does not wait for the second client's reader comes to the first one's within milliseconds.
+  if (ends.comes(ends.reader, DDS_DATA_AVAILABLE_STATUS, DDS_MSECS(500)))
+    throw std::runtime_error("answered too early");
   ends.open_reader_of("clientid=2;");
   void* message = ends.take();
   std::printf("answer %lld\n", static_cast<long long>(static_cast<const Response*>(message)->number));
