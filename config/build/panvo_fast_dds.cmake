@@ -1,5 +1,5 @@
 # panvo_find_fast_dds(): finds Fast DDS 3, or 2 from 2.9 on, and sets PANVO_FAST_DDS to its target. That of a sourced ROS 2
-# comes first, as ROS 2's security and shared libraries need the same version.
+# comes first, so that no process loads two versions.
 macro(panvo_find_fast_dds)
   find_package(fastrtps 2.9...<3 QUIET PATHS ENV AMENT_PREFIX_PATH NO_DEFAULT_PATH)
   if(NOT fastrtps_FOUND)

@@ -5,15 +5,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "angle_units.hpp"
+#include "plot_axes.hpp"
 #include "plot_canvas.hpp"
-#include "svg_chart.hpp"
 
 namespace panvo::evaluation {
 namespace {
@@ -40,7 +39,7 @@ void dot(cv::Mat3b& picture, const cv::Point2d& at, double radius_px, const cv::
              kShift);
 }
 
-/// Edges of the square around all paths, as minimum and maximum.
+/// Opposite corners of the box around all paths.
 std::pair<Eigen::Vector2d, Eigen::Vector2d> extent_of(const JourneyFrames& frames) {
   Eigen::Vector2d least = Eigen::Vector2d::Constant(1e18), most = -least;
   const auto add = [&](const Trajectory& path, const Eigen::Isometry3d& world_from_path) {

@@ -5,13 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <span>
 
 #include "panvo/evaluation/journey_evaluation.hpp"
 
 namespace panvo::evaluation {
 
-/// A plan of the drive, north up, on which both trajectories grow.
+/// A plan of the drive, y axis up, on which both trajectories grow.
 class DriveMap {
  public:
   DriveMap(const RunEvaluation& run, cv::Size size);

@@ -81,9 +81,9 @@ VideoEncoder::~VideoEncoder() {
   if (child_ > 0) {
     ::kill(child_, SIGKILL);
     ::waitpid(child_, nullptr, 0);
-    std::error_code ignored;
-    std::filesystem::remove(part_, ignored);
   }
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);  // gone if the video was finished
   ::close(messages_);
 }
 
@@ -114,9 +114,8 @@ bool VideoEncoder::has_succeeded() {
   for (const auto end = std::chrono::steady_clock::now() + kPatience; std::chrono::steady_clock::now() < end;) {
     int status = 0;
     if (::waitpid(child_, &status, WNOHANG) == child_) {
-      const bool is_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-      if (is_well) child_ = -1;
-      return is_well;
+      child_ = -1;
+      return WIFEXITED(status) && WEXITSTATUS(status) == 0;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

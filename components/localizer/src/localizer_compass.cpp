@@ -15,7 +15,6 @@ namespace {
 constexpr double kMaxInflation =
     25.0;                              // wrong turns also cause wrong translation, by up to five times the stated error
 constexpr double kClockCaution = 9.0;  // odometry sometimes errs by more than stated, especially while turning
-constexpr double kUnknownClock_s = 0.3;  // offset, before it was searched: latency of a video stream
 constexpr double kNotableClock_s = 0.1;  // a vehicle moves half a metre in that time
 constexpr double kStraight = 0.02;       // rad/s: another time makes no difference
 constexpr double kAgree = 2.0;           // standard deviations: turns at another time

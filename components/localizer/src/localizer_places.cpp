@@ -18,7 +18,6 @@ namespace {
 // Of an image's arrival stamp. Larger clock offsets show in the first bend; until then sightings on straight roads
 // count as well.
 constexpr double kMaxStampSigma_s = 0.01;
-constexpr double kSetClock_s = 0.3;  // of a clock that may have been set, as kUnknownClock_s
 constexpr double kUnsaidYaw_rad = 3.0;
 // For the components left open by an external pose: a click on a flat map.
 constexpr double kUnsaidHeight_m = 10.0;
@@ -84,7 +83,7 @@ LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sightin
   LandmarkSighting wider = sighting;
   if (const auto twist = chain_.twist(in_odometry_time(sighting.stamp_ns))) {
     const double sigma_s =
-        is_clock_doubtful_ ? kSetClock_s : std::min(std::sqrt(clock_.variance_s2()), kMaxStampSigma_s);
+        is_clock_doubtful_ ? kUnknownClock_s : std::min(std::sqrt(clock_.variance_s2()), kMaxStampSigma_s);
     wider.covariance += 2.0 * vision::stamp_covariance(sighting.landmark_from_base, *twist, sigma_s);
   }
   return wider;

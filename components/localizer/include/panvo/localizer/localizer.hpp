@@ -156,6 +156,10 @@ class Localizer {
   const DirectionOffset& direction_offset() const noexcept { return check_.direction_offset(); }
 
  private:
+  /// Standard deviation of a panoramic camera's clock before the search, or if it may have been stepped: latency of a
+  /// video stream.
+  static constexpr double kUnknownClock_s = 0.3;
+
   struct PendingRelocalization {  // a sighting that was not accepted
     LandmarkSighting sighting;
     Eigen::Isometry3d map_from_odom;
@@ -208,7 +212,7 @@ class Localizer {
   ClockOffset clock_;
   vision::ClockSearch clock_search_;
   vision::ClockDoubt clock_doubt_;
-  bool is_clock_doubtful_ = false;            // it may have been set
+  bool is_clock_doubtful_ = false;            // it may have been stepped
   std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
   std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times
   YawScaleFilter turn_scale_;
