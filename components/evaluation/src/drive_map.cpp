@@ -62,7 +62,7 @@ cv::Scalar truth() { return from_hex(kTruthColour); }
 cv::Scalar binocular() { return from_hex(kColours[1]); }
 cv::Scalar enhanced() { return from_hex(kColours[0]); }
 cv::Scalar correction() { return from_hex(kColours[2]); }
-cv::Scalar landmark() { return from_hex(kColours[3]); }
+cv::Scalar landmark() { return from_hex(kColours[4]); }
 }  // namespace video_colours
 
 DriveMap::DriveMap(const RunEvaluation& run, cv::Size size) : run_(run), drawn_(size, cv::Vec3b(255, 255, 255)) {
