@@ -17,7 +17,7 @@ position and heading, and of wrong matches, with 95 % intervals. Drives are rend
   --seeds LIST     seeds of the campuses (default: 601,602,603). With two or more, each library is also searched on the other campuses, where
                    every match is wrong
   --route ROUTE    route (default: dataset_ii, 1.4 km); see panvo simulate --help
-  --only NAMES     of the conditions: hour, night, rain, bare, snow, rows (default: all)
+  --only NAMES     of the conditions: hour, night, rain, bare, snow, rows, twins, car_parks, hall (default: all)
   --out FILE       the page (default: runs/places.md)
 EOT
 }
@@ -31,8 +31,17 @@ place_condition() {
     rain) printf '%s\n' --overcast --effects rain,smear,movers --day 2 ;;
     bare) printf '%s\n' --season bare --day 120 ;;
     snow) printf '%s\n' --season snow --day 150 ;;
-    rows) printf '%s\n' --rows --hour 12 --day 3 ;;
-    rows_library) printf '%s\n' --rows --hour 12 ;;
+    rows | twins | car_parks) printf '%s\n' --layout "$1" --hour 12 --day 3 ;;
+    hall) printf '%s\n' --layout hall --day 3 ;;
+    *_library) printf '%s\n' --layout "${1%_library}" ;;
+  esac
+}
+
+# library_of NAME: the condition of the drive whose landmarks are the library.
+library_of() {
+  case $1 in
+    rows | twins | car_parks | hall) printf '%s_library\n' "$1" ;;
+    *) printf 'noon\n' ;;
   esac
 }
 
@@ -46,8 +55,8 @@ place_drive() {
 }
 
 bench_places() {
-  local route=dataset_ii list=601,602,603 only=hour,night,rain,bare,snow,rows out=$PANVO_HOME/runs/places.md seed other name library query
-  local -a seeds names pairs=()
+  local route=dataset_ii list=601,602,603 only=hour,night,rain,bare,snow,rows,twins,car_parks,hall out=$PANVO_HOME/runs/places.md seed other name label library query
+  local -a seeds names libraries pairs=()
   while (($#)); do
     case $1 in
       -h | --help)
@@ -70,20 +79,26 @@ bench_places() {
   split_seeds "$list"
   IFS=, read -r -a names <<<"$only"
   for name in "${names[@]}"; do
-    [[ $name == @(hour|night|rain|bare|snow|rows) ]] || fail "--only '$name': choose from hour, night, rain, bare, snow, rows" 2
+    [[ $name == @(hour|night|rain|bare|snow|rows|twins|car_parks|hall) ]] ||
+      fail "--only '$name': choose from hour, night, rain, bare, snow, rows, twins, car_parks, hall" 2
   done
   prepare_page "$out"
   for seed in "${seeds[@]}"; do
     for name in "${names[@]}"; do
-      library=$(place_drive "$route" "$seed" "$([[ $name == rows ]] && echo rows_library || echo noon)")
+      library=$(place_drive "$route" "$seed" "$(library_of "$name")")
       query=$(place_drive "$route" "$seed" "$name")
       pairs+=(--pair "$name" "$library" "$query")
     done
     for other in "${seeds[@]}"; do
       [[ $other != "$seed" ]] || continue
-      library=$(place_drive "$route" "$seed" noon)
-      query=$(place_drive "$route" "$other" noon)
-      pairs+=(--pair elsewhere "$library" "$query")
+      mapfile -t libraries < <(for name in "${names[@]}"; do library_of "$name"; done | sort -u)
+      for name in "${libraries[@]}"; do
+        library=$(place_drive "$route" "$seed" "$name")
+        query=$(place_drive "$route" "$other" "$name")
+        label=elsewhere
+        [[ $name == noon ]] || label+=", ${name%_library}"
+        pairs+=(--pair "$label" "$library" "$query")
+      done
     done
   done
   exec python3 -B "$PANVO_HOME/tests/benchmarks/places.py" "${pairs[@]}" --programs "$(build_folder)/panvo_bin" \

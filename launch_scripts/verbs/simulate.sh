@@ -30,7 +30,7 @@ verb_main() {
   while (($#)); do
     case $1 in
       --bag) as_bag=yes ;;
-      --truth-only | --map | --night | --overcast | --rows | --twins | --wet) rest+=("$1") ;;
+      --truth-only | --map | --night | --overcast | --wet) rest+=("$1") ;;
       -*=*) rest+=("${1%%=*}" "${1#*=}") ;;
       -*)
         require_value "$@"

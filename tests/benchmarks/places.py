@@ -49,7 +49,7 @@ def row(name, results):
     journeys = [result["journey"] for result in results]
     matches = [each for journey in journeys for each in journey["matches"]]
     panoramas = sum(result["panoramas"] for result in results)
-    if name == ELSEWHERE:
+    if name.startswith(ELSEWHERE):
         wrong, cells = len(matches), ["-"] * 6
     else:
         found, revisits = sum(journey["found"] for journey in journeys), sum(result["revisits"] for result in results)
@@ -82,8 +82,9 @@ def page(version, rows, missing, where):
     lines = ["# Recognition of places by this version", "", f"Written by `panvo bench places`: panvo {version}, {where}.", "",
              "The library is a drive at noon in summer. Every panorama of another drive is compared with the whole library, without a prior position.",
              "Intervals are of 95 %. Successive panoramas are not independent of each other, so that the true bound of the wrong rate is higher.", "",
-             "hour: in the evening; night: street lamps; rain: overcast, drops and dirt on the lens, traffic; bare: trees without leaves; rows: rows of equal buildings, also",
-             "in the library; elsewhere: the library of another campus, where every match is wrong.", ""]
+             "hour: in the evening; night: street lamps; rain: overcast, drops and dirt on the lens, traffic; bare: trees without leaves; rows: rows of equal buildings; twins:",
+             "pairs of junctions with the same buildings; car_parks: equal bays with other cars; hall: indoors, a fifth of the goods are others; these four also in the library.",
+             "elsewhere: the library of another campus, of the same layout, where every match is wrong.", ""]
     lines += table(COLUMNS, rows) if rows else ["Nothing was measured."]
     if missing:
         lines += ["", "## Not measured", "", *(f"- {text}" for text in missing)]

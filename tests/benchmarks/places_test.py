@@ -57,8 +57,9 @@ class Places(unittest.TestCase):
         self.assertIn("| hour | 1 | 2 of 2 | 100 (34 to 100) | 0.20 | 0.20 | 0.20 | 0.40 | 300 | 1 | 1.6e-02 |", page)
 
     def test_on_another_campus_every_match_is_wrong(self):
-        _, page = self.write_page(self.make_drive("elsewhere", [0.1], 1))
+        _, page = self.write_page(self.make_drive("elsewhere", [0.1], 1), self.make_drive("elsewhere, hall", [], 0))
         self.assertIn("| elsewhere | 1 | - | - | - | - | - | - | 300 | 1 | 1.6e-02 |", page)
+        self.assertIn("| elsewhere, hall | 1 | - | - | - | - | - | - | 300 | 0 | 1.0e-02 |", page)
 
     def test_a_condition_without_matches_has_no_errors(self):
         _, page = self.write_page(self.make_drive("snow", [], 5))

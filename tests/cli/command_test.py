@@ -150,9 +150,9 @@ class Simulate(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             command, programs = install(folder)
             write_program(programs / "panvo_simulate", 'echo "$@"')
-            done = panvo("simulate", "--random", "3", "--night", "--overcast", "--rows", "--twins", "--wet", "--out", "x", command=command, cwd=folder)
+            done = panvo("simulate", "--random", "3", "--night", "--overcast", "--layout", "rows", "--wet", "--out", "x", command=command, cwd=folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout, "--random 3 --night --overcast --rows --twins --wet --out x\n")
+        self.assertEqual(done.stdout, "--random 3 --night --overcast --layout rows --wet --out x\n")
 
     def test_a_bag_can_be_of_another_day(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -187,7 +187,9 @@ TEST_F(SimulatedJourney, OfOptionsThatContradictEachOtherIsWrongUsage) {
   const std::vector<Refusal> refusals{
       {{"--night", "--hour", "7"}, "--night"},
       {{"--wet", "--season", "snow"}, "season 'snow' contradicts wet"},
-      {{"--rows", "--twins"}, "--twins"},
+      {{"--layout", "row"}, "--layout"},
+      {{"--layout", "hall", "--night"}, "layout 'hall' contradicts night"},
+      {{"--layout", "hall", "--hilliness", "1"}, "layout 'hall' contradicts hilliness"},
   };
   for (auto [options, named] : refusals) {
     options.insert(options.end(), {"--route", kShort, "--out", folder_ / "refused"});

@@ -9,9 +9,13 @@ Campus build_campus(const SiteParameters& parameters, const std::filesystem::pat
   auto scene = std::make_shared<Scene>();
   scene->palette = palette;
   scene->sky = std::make_shared<const Sky>(parameters.seed);
-  build_ground(*site, *scene);
-  const auto plots = build_buildings(*site, *scene);
-  build_furniture(*site, plots, *scene);
+  if (parameters.layout == Layout::kHall) {
+    build_hall(*site, *scene);
+  } else {
+    build_ground(*site, *scene);
+    const auto plots = build_buildings(*site, *scene);
+    build_furniture(*site, plots, *scene);
+  }
   const auto movers = build_mover_models(*palette, parameters.seed, *scene);
   return {site, scene, movers};
 }

@@ -20,6 +20,10 @@ class Planner {
   explicit Planner(const Site& site) : site_(site), random_(site.parameters.seed, "plots") {}
 
   std::vector<PlannedPlot> plan() {
+    if (site_.parameters.layout == Layout::kCarParks) {
+      line_roads();
+      return std::move(plots_);
+    }
     // large ones first, while there is room
     place_some(PlotUse::kInstitute, 0.28, 1);
     place_some(PlotUse::kHall, 0.12, 2);
@@ -29,12 +33,20 @@ class Planner {
   }
 
  private:
+  bool is_in_rows() const {
+    return site_.parameters.layout == Layout::kRows || site_.parameters.layout == Layout::kCarParks;
+  }
+
   /// What to place there: of its own, or in rows as everywhere on the campus.
   Wish wish_for(PlotUse use, Random& random) const {
-    const Wish wish = draw_wish(use, random);
-    if (!site_.parameters.rows) return wish;
-    Random common = random_.part(6).part(static_cast<std::uint64_t>(use));
-    return draw_wish(use, common);
+    Wish wish = draw_wish(use, random);
+    if (is_in_rows()) {
+      Random common = random_.part(6).part(static_cast<std::uint64_t>(use));
+      wish = draw_wish(use, common);
+    } else if (site_.parameters.layout == Layout::kHall) {
+      wish.setback_m = random.uniform(-1.9, -0.9);  // there is no pavement
+    }
+    return wish;
   }
 
   /// Places at most one per side of a road, with that probability.
@@ -59,23 +71,27 @@ class Planner {
       const double length = length_of(site_.roads.roads[static_cast<std::size_t>(road)]);
       for (const bool is_left : {false, true}) {
         Random random = random_.part(4).part(static_cast<std::uint64_t>(2 * road + (is_left ? 1 : 0)));
-        const PlotUse use =
-            is_town(roadside(site_.roads, road, 0.5 * length, is_left).at(10.0)) ? PlotUse::kTown : PlotUse::kHouse;
+        const PlotUse use = use_along(roadside(site_.roads, road, 0.5 * length, is_left).at(10.0));
         double along = 4.0;
         while (along < length - 4.0) {
           const Wish wish = wish_for(use, random);
           const Roadside place = roadside(site_.roads, road, along + 0.5 * wish.width_m, is_left);
-          if (random.chance(0.08) && !site_.parameters.rows) {  // a gap
+          if (random.chance(0.08) && !is_in_rows()) {  // a gap
             along += wish.width_m;
           } else if (try_to_place(wish, place)) {
             const double further_m = random.uniform(0.0, 5.0);
-            along += wish.width_m + kGapBetweenPlots_m + (site_.parameters.rows ? 0.0 : further_m);
+            along += wish.width_m + kGapBetweenPlots_m + (is_in_rows() ? 0.0 : further_m);
           } else {
             along += 2.0;
           }
         }
       }
     }
+  }
+
+  PlotUse use_along(const Eigen::Vector2d& point) const {
+    if (site_.parameters.layout == Layout::kCarParks) return PlotUse::kOpen;
+    return is_town(point) ? PlotUse::kTown : PlotUse::kHouse;
   }
 
   bool is_town(const Eigen::Vector2d& point) const {
@@ -206,7 +222,7 @@ std::optional<PlannedPlot> fitting_plot(const Site& site, const Wish& wish, cons
 }
 
 std::vector<PlannedPlot> plan_plots(const Site& site) {
-  return site.parameters.twins ? plan_twins(site) : Planner(site).plan();
+  return site.parameters.layout == Layout::kTwins ? plan_twins(site) : Planner(site).plan();
 }
 
 }  // namespace panvo::simulated_world

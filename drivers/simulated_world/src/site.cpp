@@ -24,7 +24,8 @@ Site::Site(const SiteParameters& site_parameters, RoadNetwork network, std::shar
 double Site::distance_from_kerb(const Eigen::Vector2d& point) const { return kerbs->distance_m(point); }
 
 double Site::ground_m(const Eigen::Vector2d& point) const {
-  return terrain.height_m(point) + (distance_from_kerb(point) < 0.0 ? 0.0 : kKerbHeight_m);
+  const bool is_raised = parameters.layout != Layout::kHall && distance_from_kerb(point) >= 0.0;
+  return terrain.height_m(point) + (is_raised ? kKerbHeight_m : 0.0);
 }
 
 double Site::weakness(const Eigen::Vector2d& point) const {

@@ -136,6 +136,14 @@ Light night_light(bool overcast, std::uint32_t evening) {
   return light;
 }
 
+Light hall_light() {
+  Light light = night_light(false, 0);
+  light.sky = Eigen::Vector3f(0.065f, 0.063f, 0.058f);
+  light.ground = 0.6f * light.sky;
+  light.haze_per_m = 0.0f;
+  return light;
+}
+
 namespace {
 
 /// Radiance of an overcast sky at height `up`: three times as bright overhead as at the horizon, after Moon and Spencer

@@ -37,7 +37,7 @@ TEST(Plots, OverlapExactlyWhenNoSideSeparatesThem) {
 
 TEST(Buildings, OfOneUseAreAlikeInRows) {
   Site site = crossroads();
-  site.parameters.rows = true;
+  site.parameters.layout = Layout::kRows;
   std::map<PlotUse, std::set<double>> widths;
   std::map<PlotUse, std::set<std::size_t>> corners;
   std::vector<PlannedPlot> built;
@@ -79,7 +79,7 @@ std::pair<int, int> twins_at_ends(const Site& site) {
 TEST(Buildings, AreTheSameAtTwinJunctions) {
   Site site = crossroads();
   EXPECT_EQ(twins_at_ends(site).first, 0);
-  site.parameters.twins = true;
+  site.parameters.layout = Layout::kTwins;
   const auto [twins, all] = twins_at_ends(site);
   EXPECT_GE(all, 4);
   EXPECT_GE(twins, 0.8 * all);  // some are shifted further
@@ -88,7 +88,7 @@ TEST(Buildings, AreTheSameAtTwinJunctions) {
 TEST(Buildings, OfCampusJunctionsHaveTwinsAtOneOtherJunction) {
   const auto roads = campus_roads(1);
   SiteParameters parameters;
-  parameters.twins = true;
+  parameters.layout = Layout::kTwins;
   const Site site(parameters, roads, crossroads().palette);
   std::map<std::uint64_t, int> count;
   for (const auto& planned : plan_plots(site)) ++count[planned.design.value()];

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
+#include <optional>
 
 #include "../src/objects/furniture_planner.hpp"
 #include "../src/objects/plants.hpp"
@@ -12,7 +14,10 @@ namespace {
 
 /// The furnished crossroads, and which models are cars.
 struct Town {
-  explicit Town(std::uint64_t seed) : site(crossroads(seed)) {
+  explicit Town(std::uint64_t seed, Layout layout = Layout::kVaried, std::optional<std::uint64_t> day = {})
+      : site(crossroads(seed)) {
+    site.parameters.layout = layout;
+    site.parameters.day = day;
     plots = build_buildings(site, scene);
     Scene only_models;
     models = build_furniture_models(*site.palette, seed, only_models);
@@ -74,6 +79,49 @@ TEST(Furniture, StandsOnTheGroundAndOutsideOfBuildings) {
     EXPECT_NEAR(place.z(), town.site.ground_m(point), 1e-3);
     for (const auto& plot : town.plots) EXPECT_FALSE(plot.contains(point, 0.1));
   }
+}
+
+using Place = std::array<float, 2>;
+
+/// Where models stand, with their number: of cars or of all else.
+std::map<Place, std::uint32_t> places(const Town& town, bool of_cars) {
+  std::map<Place, std::uint32_t> places;
+  for (const auto& placement : town.scene.standing) {
+    const Eigen::Vector3f place = placement.world_from_model.translation();
+    if (town.is_car(placement.model) == of_cars) places[{place.x(), place.y()}] = placement.model;
+  }
+  return places;
+}
+
+TEST(Furniture, OnAnotherDayOtherCarsAreParkedAndAllElseStays) {
+  for (const auto layout : {Layout::kVaried, Layout::kCarParks}) {
+    const Town usual(6, layout), other(6, layout, 3), again(6, layout, 3), next(6, layout, 4);
+    EXPECT_EQ(places(other, true), places(again, true));
+    EXPECT_NE(places(other, true), places(next, true));
+    EXPECT_EQ(places(usual, false), places(other, false));
+    const auto before = places(usual, true), after = places(other, true);
+    ASSERT_GE(before.size(), 10u);
+    int taken = 0, differing = 0;
+    for (const auto& [place, model] : after) {
+      ASSERT_TRUE(before.contains(place));
+      ++taken;
+      differing += before.at(place) != model;
+    }
+    EXPECT_NEAR(taken / static_cast<double>(before.size()), kParkedAgain, 0.15);
+    EXPECT_GT(differing, taken / 2);
+  }
+}
+
+TEST(Furniture, ConsistsOfEqualBaysInCarParks) {
+  Site site = crossroads();
+  site.parameters.layout = Layout::kCarParks;
+  const auto planned = plan_plots(site);
+  ASSERT_GE(planned.size(), 12u);
+  for (const auto& plot : planned) {
+    EXPECT_EQ(plot.use, PlotUse::kOpen);
+    EXPECT_EQ(plot.plot.size, planned.front().plot.size);
+  }
+  EXPECT_GT(places(Town(1, Layout::kCarParks), true).size(), 4 * planned.size());
 }
 
 TEST(Furniture, IsTheSameForTheSameSeed) {

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 
 std::shared_ptr<const Palette> ground_palette() {
-  static const auto kPalette = std::make_shared<const Palette>(1, "");
+  static const auto kPalette = std::make_shared<const Palette>(Palette::unpainted());
   return kPalette;
 }
 

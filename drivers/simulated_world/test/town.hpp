@@ -7,9 +7,9 @@
 
 namespace panvo::simulated_world {
 
-/// Two crossing roads, 120 m in each direction, one of them 8 m wide; all tests share one palette.
+/// Two crossing roads, 120 m in each direction, one of them 8 m wide.
 inline Site crossroads(std::uint64_t seed = 1, double hilliness = 0.0) {
-  static const auto palette = std::make_shared<const Palette>(1, std::filesystem::path{});
+  static const auto palette = std::make_shared<const Palette>(Palette::unpainted());
   RoadNetwork roads;
   roads.junctions = {{"west", {-120, 0}, {0}, false},
                      {"centre", {0, 0}, {1, 3, 0, 2}, true},

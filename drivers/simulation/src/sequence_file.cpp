@@ -80,14 +80,14 @@ std::string sequence_yaml(const Simulation& simulation) {
       "image stamps\n";
   text += fmt::format(
       "route: {}\nseed: {}\nhilliness: {:g}\ncalibration_error: {:g}\nhour: {:g}\nseason: {}\novercast: {}\nnight: "
-      "{}\nwet: {}\nrows: {}\ntwins: {}\neffects: "
+      "{}\nwet: {}\nlayout: {}\neffects: "
       "[{}]\ntraveled_m: "
       "{:.3f}\nduration_s: {:.2f}\n"
       "stereo_frames: {}\npanorama_frames: {}\npanorama_clock_offset_ns: {}  # panorama stamps minus true times\n"
       "start_ns: {}\nplace_kind: road junction\n",
       p.route.name, p.seed, p.hilliness, p.calibration_error, p.day.hour,
-      kSeasonNames[static_cast<std::size_t>(p.day.season)], p.day.overcast, p.day.night, p.day.wet, p.rows, p.twins,
-      fmt::join(names_of(p.effects), ", "),
+      kSeasonNames[static_cast<std::size_t>(p.day.season)], p.day.overcast, p.day.night, p.day.wet,
+      kLayoutNames[static_cast<std::size_t>(p.layout)], fmt::join(names_of(p.effects), ", "),
       simulation.motion().travelled_m(to_s) - simulation.motion().travelled_m(from_s), to_s - from_s, stereo_frames,
       panorama_frames, std::llround(p.effects.panorama_clock_offset_s() * 1e9), instants.front().stamp_ns);
   text += fmt::format("route_junctions: [{}]\n", fmt::join(p.route.junctions, ", "));

@@ -2,6 +2,7 @@
 #include "panvo/simulation/simulation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,12 +66,34 @@ SensorParameters at_night(SensorParameters sensor) {
 
 }  // namespace
 
+simulated_world::Layout layout_of(const std::string& name) {
+  const auto found = std::ranges::find(kLayoutNames, name);
+  if (found == kLayoutNames.end()) {
+    throw std::invalid_argument(fmt::format("unknown layout '{}'; known are {}", name, fmt::join(kLayoutNames, ", ")));
+  }
+  return static_cast<simulated_world::Layout>(found - kLayoutNames.begin());
+}
+
+void check_parameters(const SimulationParameters& parameters) {
+  const Day& day = parameters.day;
+  check_day(day);
+  if (parameters.layout != simulated_world::Layout::kHall) return;
+  const auto refuse = [](bool is_given, std::string_view what) {
+    if (is_given)
+      throw std::invalid_argument(fmt::format("layout 'hall' contradicts {}: it is indoors and flat", what));
+  };
+  refuse(parameters.hilliness != 0.0, "hilliness");
+  refuse(day.season != simulated_world::Season::kSummer, "season");
+  refuse(day.overcast, "overcast");
+  refuse(day.night, "night");
+  refuse(day.wet, "wet");
+}
+
 Simulation::Simulation(const SimulationParameters& parameters) : parameters_(parameters) {
   // Everything that may be rejected comes before building the campus, which takes time.
-  const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, day, rows, twins, assets, start_s,
+  const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, day, layout, assets, start_s,
                duration_s, stereo, panorama, stamp, quality] = parameters_;
-  check_day(day);
-  if (rows && twins) throw std::invalid_argument("rows contradict twins: choose one of them");
+  check_parameters(parameters_);
   const std::uint64_t own = day.seed.value_or(seed);
   const auto path = drive(simulated_world::campus_roads(seed), route, day.left_m);
   motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness), motion, own);
@@ -99,10 +122,10 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
   campus_ = simulated_world::build_campus({.seed = seed,
                                            .hilliness = hilliness,
                                            .weak_texture = effects.weak_texture,
-                                           .rows = rows,
-                                           .twins = twins,
+                                           .layout = layout,
                                            .season = day.season,
-                                           .wet = day.wet},
+                                           .wet = day.wet,
+                                           .day = day.seed},
                                           assets);
   if (effects.movers) traffic_.emplace(*campus_.site, *motion_, campus_.movers, own);
   renderer_ = std::make_unique<simulated_world::Renderer>(campus_.scene);
@@ -164,7 +187,9 @@ cv::Mat Simulation::expose(Camera& camera, double middle_s, double exposure_s, s
 
   const simulated_world::Shot shot{world_from_base_opened * camera.base_from_camera,
                                    world_from_base_closed * camera.base_from_camera, visibility};
-  auto radiance = renderer_->render(camera.rays, shot, weather_->light(middle_s), movers, parameters_.quality);
+  const bool is_indoors = parameters_.layout == simulated_world::Layout::kHall;
+  const auto light = is_indoors ? simulated_world::hall_light() : weather_->light(middle_s);
+  auto radiance = renderer_->render(camera.rays, shot, light, movers, parameters_.quality);
   const auto traced = renderer_->statistics();
   statistics_.pixels += traced.pixels;
   statistics_.primary_rays += traced.primary_rays;

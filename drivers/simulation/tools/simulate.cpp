@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 struct Options {
   fs::path route, rig, out;
   std::vector<std::string> junctions, effects;
-  std::string season = "summer";
+  std::string season = "summer", layout = "varied";
   int random_junctions = 0;
   std::string cameras = "all", format = "jpg";
   std::vector<double> pictures_s;
@@ -95,14 +95,18 @@ void describe_options(CLI::App& app, Options& options) {
   app.add_flag("--overcast", s.day.overcast, "a closed layer of clouds, no shadows");
   app.add_flag("--wet", s.day.wet, "after rain: roads and pavements mirror, under clouds; not in snow");
   app.add_option("--day", s.day.seed,
-                 "another day on the same campus: so many days later, with other vibration, noise, traffic and clouds")
+                 "another day on the same campus: so many days later, with other vibration, noise, traffic, clouds and "
+                 "parked cars")
       ->check(CLI::Range(1, 10000));
   app.add_option("--left", s.day.left_m, "drive that far to the left of the lane's middle, m")
       ->check(CLI::Range(-1.0, 1.0))
       ->capture_default_str();
-  auto* rows = app.add_flag("--rows", s.rows, "rows of equal buildings: hard to tell apart");
-  app.add_flag("--twins", s.twins, "pairs of junctions with the same buildings: easily mistaken for each other")
-      ->excludes(rows);
+  app.add_option(
+         "--layout", options.layout,
+         "rows: equal buildings; twins: pairs of junctions with the same buildings; car_parks: equal bays; hall: "
+         "aisles between shelves under one roof")
+      ->check(CLI::IsMember(kLayoutNames))
+      ->capture_default_str();
   app.add_option("--vibration", s.motion.vibration, "scale of the vehicle's vibration; 0: none")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
@@ -134,8 +138,9 @@ void complete(Options& options) {
   auto& s = options.simulation;
   s.effects = effects_of(options.effects);
   s.day.season = season_of(options.season);
+  s.layout = layout_of(options.layout);
   try {
-    check_day(s.day);
+    check_parameters(s);
   } catch (const std::invalid_argument& error) {
     throw CLI::ValidationError(error.what());
   }

@@ -123,17 +123,17 @@ void build_body(const FacadeStyle& style, const BuildingMaterials& materials, co
 std::vector<Plot> build_buildings(const Site& site, Scene& scene) {
   const BuildingMaterials materials(*site.palette);
   const Random random(site.parameters.seed, "buildings");
+  const bool in_rows = site.parameters.layout == Layout::kRows;
   std::vector<Plot> plots;
   std::uint64_t number = 0, style_number = 0;
   PlotUse last_use = PlotUse::kOpen;
   for (const auto& planned : plan_plots(site)) {
     ++number;
     if (planned.use == PlotUse::kOpen) continue;  // left to build_furniture()
-    const std::uint64_t design =
-        site.parameters.rows ? static_cast<std::uint64_t>(planned.use) : planned.design.value_or(number);
+    const std::uint64_t design = in_rows ? static_cast<std::uint64_t>(planned.use) : planned.design.value_or(number);
     Random own = random.part(design);
     // sometimes a twin of the neighbour
-    const bool is_twin = !site.parameters.rows && !planned.design && planned.use == last_use && own.chance(0.22);
+    const bool is_twin = !in_rows && !planned.design && planned.use == last_use && own.chance(0.22);
     if (!is_twin) style_number = design;
     last_use = planned.use;
     FacadeStyle style =

@@ -73,10 +73,12 @@ void build_furniture(const Site& site, const std::vector<Plot>& plots, Scene& sc
   // objects with the fewest possible positions come first
   planner.furnish_open_plots();
   planner.furnish_kerbs();
-  planner.fill_drives();
-  planner.edge_gardens();
-  planner.plant_rows();
-  planner.plant_at_walls();
+  if (site.parameters.layout != Layout::kCarParks) {
+    planner.fill_drives();
+    planner.edge_gardens();
+    planner.plant_rows();
+    planner.plant_at_walls();
+  }
   planner.scatter_trees();
   light_lamps(models, scene);
 }

@@ -14,7 +14,7 @@ void FurniturePlanner::furnish_open_plots() {
     if (planned.use != PlotUse::kOpen) continue;
     Random random = random_.part(6).part(number);
     const double kind = random.uniform();
-    if (kind < 0.45) {
+    if (kind < 0.45 || site_.parameters.layout == Layout::kCarParks) {
       furnish_car_park(planned, random);
     } else if (kind < 0.7) {
       furnish_plaza(planned, random);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "../shapes.hpp"
 
@@ -99,9 +101,21 @@ void FurniturePlanner::plant(const std::vector<std::uint32_t>& kinds, const Eige
 }
 
 void FurniturePlanner::park_car(const Eigen::Vector2d& point, double heading_rad, Random& random) {
-  const std::uint32_t model = random.chance(0.1) ? pick(random, models_.vans) : pick(random, models_.cars);
-  stand(model, point, heading_rad + random.uniform(-0.03, 0.03) + (random.chance(0.25) ? std::numbers::pi : 0.0), 1.0,
-        car_colour(random));
+  const auto draw = [&](Random& own) {
+    Placement car;
+    car.model = own.chance(0.1) ? pick(own, models_.vans) : pick(own, models_.cars);
+    car.tint = car_colour(own);
+    const double turn_rad = own.uniform(-0.03, 0.03);
+    return std::pair(car, turn_rad + (own.chance(0.25) ? std::numbers::pi : 0.0));
+  };
+  auto [car, turn_rad] = draw(random);
+  bool is_taken = true;
+  if (const auto day = site_.parameters.day) {
+    Random today = random_.part(8).part(*day).part(bays_++);
+    is_taken = today.chance(kParkedAgain);
+    std::tie(car, turn_rad) = draw(today);
+  }
+  if (is_taken) stand(car.model, point, heading_rad + turn_rad, 1.0, car.tint);
   const Eigen::Vector2d along(std::cos(heading_rad), std::sin(heading_rad));
   for (const double offset : {-1.5, 0.0, 1.5}) occupy(point + offset * along, 1.0);
 }

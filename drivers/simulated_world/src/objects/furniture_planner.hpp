@@ -13,6 +13,8 @@ namespace panvo::simulated_world {
 
 // Helpers shared by the planner's files.
 
+inline constexpr double kParkedAgain = 0.7;  // share of the bays taken on the usual day that are taken on another one
+
 template <typename T>
 const T& pick(Random& random, const std::vector<T>& choices) {
   return choices[static_cast<std::size_t>(random.below(static_cast<int>(choices.size())))];
@@ -60,6 +62,7 @@ class FurniturePlanner {
                     double min_from_kerb_m, double scale = 1.0, Tint tint = {});
   void plant(const std::vector<std::uint32_t>& kinds, const Eigen::Vector2d& point, double min_from_kerb_m,
              double spacing_m, Random& random);
+  /// Into a bay that is taken on the usual day; on another day it may be empty, or hold another car.
   void park_car(const Eigen::Vector2d& point, double heading_rad, Random& random);
   void park_along(int road, bool is_left, double length_m, Random& random);
   void furnish_car_park(const PlannedPlot& planned, Random& random);
@@ -83,6 +86,7 @@ class FurniturePlanner {
   Random random_;
   GroundZones zones_;
   std::map<Cell, std::vector<Disc>> taken_;
+  std::uint64_t bays_ = 0;  ///< so far
 };
 
 }  // namespace panvo::simulated_world

@@ -104,7 +104,26 @@ std::map<std::string, cv::Mat> read_photographs(const std::filesystem::path& ass
   return photographs;
 }
 
+Material material_of(const Recipe& recipe, const cv::Mat& picture) {
+  Material material;
+  material.name = recipe.name;
+  material.albedo = std::make_shared<const Texture>(picture);
+  material.period_m = recipe.period_m;
+  material.gloss = recipe.gloss;
+  material.translucency = recipe.translucency;
+  material.has_holes = recipe.has_holes;
+  return material;
+}
+
 }  // namespace
+
+Palette Palette::unpainted() {
+  const cv::Mat grey(4, 4, CV_8UC4, cv::Scalar(128.0, 128.0, 128.0, 255.0));
+  Palette palette;
+  for (const Recipe& recipe : material_recipes(Season::kSummer))
+    palette.materials_.push_back(material_of(recipe, grey));
+  return palette;
+}
 
 Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season, bool wet) {
   const std::vector<Recipe> recipes = material_recipes(season);
@@ -125,12 +144,7 @@ Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets, Season
     const cv::Mat picture =
         photograph != photographs.end() ? photograph->second : recipe.paint(Random(seed, recipe.name));
     Material& material = materials_[job - overlays.size()];
-    material.name = recipe.name;
-    material.albedo = std::make_shared<const Texture>(picture);
-    material.period_m = recipe.period_m;
-    material.gloss = recipe.gloss;
-    material.translucency = recipe.translucency;
-    material.has_holes = recipe.has_holes;
+    material = material_of(recipe, picture);
     if (season == Season::kSnow) material.snow = snow_on(recipe.name);
     if (wet) material.wet = wetness_of(recipe.name);
   };

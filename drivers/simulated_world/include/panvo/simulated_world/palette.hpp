@@ -43,6 +43,9 @@ class Palette {
  public:
   Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season = Season::kSummer, bool wet = false);
 
+  /// The same materials, all grey and without wear: made at once, for what needs their names only.
+  static Palette unpainted();
+
   const std::vector<Material>& materials() const { return materials_; }
 
   /// The index of the material of that name. Throws std::out_of_range with the name if there is none.
@@ -52,6 +55,8 @@ class Palette {
   std::vector<std::uint16_t> family(std::string_view prefix) const;
 
  private:
+  Palette() = default;
+
   std::vector<Material> materials_;
 };
 

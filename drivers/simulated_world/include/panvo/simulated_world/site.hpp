@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "panvo/simulated_world/road_network.hpp"
@@ -12,15 +13,24 @@
 
 namespace panvo::simulated_world {
 
+/// What lies along the roads.
+enum class Layout {
+  kVaried,    ///< buildings of many kinds
+  kRows,      ///< all buildings of one use are alike in every detail, at equal distances
+  kTwins,     ///< junctions go in pairs with the same buildings along their roads
+  kCarParks,  ///< car parks with equal bays instead of buildings
+  kHall,      ///< indoors: aisles instead of roads, between pillars and shelves under one roof; flat
+};
+
 /// Parameters of the campus.
 struct SiteParameters {
   std::uint64_t seed = 1;
   double hilliness = 0.0;     ///< see Terrain
   bool weak_texture = false;  ///< applied to the junctions marked in the network
-  bool rows = false;          ///< all buildings of one use are alike in every detail, at equal distances
-  bool twins = false;         ///< junctions go in pairs with the same buildings along their roads; not with rows
+  Layout layout = Layout::kVaried;
   Season season = Season::kSummer;
-  bool wet = false;  ///< after rain: water on roads and pavements
+  bool wet = false;                    ///< after rain: water on roads and pavements
+  std::optional<std::uint64_t> day{};  ///< of other parked cars, and other goods in a hall
 };
 
 class KerbField;
@@ -40,7 +50,7 @@ struct Site {
   /// Signed distance (m) from the nearest kerb: negative on the road, positive beside it. Smooth at the rounded corners
   /// of junctions.
   double distance_from_kerb(const Eigen::Vector2d& point) const;
-  /// Ground height (m): the terrain, plus 0.12 m on and beyond the pavement.
+  /// Ground height (m): the terrain, plus 0.12 m on and beyond the pavement, if there is one.
   double ground_m(const Eigen::Vector2d& point) const;
   /// 0..1: degree to which the texture is weakened (1 at the centre of a junction with weak texture).
   double weakness(const Eigen::Vector2d& point) const;
@@ -61,6 +71,9 @@ std::vector<Plot> build_buildings(const Site& site, Scene& scene);
 
 /// Places trees, hedges, lamp posts, fences, signs, bins and parked cars outside the plots.
 void build_furniture(const Site& site, const std::vector<Plot>& plots, Scene& scene);
+
+/// Builds a hall instead of ground, buildings and furniture: floor, pillars, shelves, offices, machines, roof and lamps.
+void build_hall(const Site& site, Scene& scene);
 
 /// The models of moving objects; indices into Scene::models.
 struct MoverModels {

@@ -32,6 +32,9 @@ Light overcast_light_at(double hour);
 /// A night without a moon: the sky is lit by the town, under clouds twice as much. `evening` decides which rooms are lit.
 Light night_light(bool overcast, std::uint32_t evening);
 
+/// The light in a hall: its lamps, and what walls and roof reflect.
+Light hall_light();
+
 /// Radiance of the sky just above the horizon, into which distant objects fade with `haze_per_m`.
 Eigen::Vector3f haze(const Light& light);
 

@@ -20,6 +20,12 @@
 
 namespace panvo::simulation {
 
+/// Names of the layouts, in order of simulated_world::Layout.
+inline const std::vector<std::string> kLayoutNames = {"varied", "rows", "twins", "car_parks", "hall"};
+
+/// The layout of that name. Throws std::invalid_argument, with the valid names, for another one.
+simulated_world::Layout layout_of(const std::string& name);
+
 struct SimulationParameters {
   Route route;
   Rig rig = paper_rig();
@@ -29,8 +35,7 @@ struct SimulationParameters {
   double hilliness = 0.0;
   double calibration_error = 0.0;  ///< of the published stereo calibration; 1: a good one after months of driving
   Day day;
-  bool rows = false;             ///< the campus has rows of equal buildings (see SiteParameters)
-  bool twins = false;            ///< the campus has pairs of junctions with the same buildings
+  simulated_world::Layout layout = simulated_world::Layout::kVaried;
   std::filesystem::path assets;  ///< photographs in place of painted textures; empty: none
   double start_s = 0.0;          ///< start time on the journey
   double duration_s = 0.0;       ///< duration; 0: to the end
@@ -38,6 +43,9 @@ struct SimulationParameters {
   std::int64_t start_stamp_ns = 1'700'000'000'000'000'000;
   simulated_world::Renderer::Quality quality;
 };
+
+/// Throws std::invalid_argument if day, layout and terrain contradict each other.
+void check_parameters(const SimulationParameters& parameters);
 
 /// An exposure of the stereo camera, the panoramic camera or both. The middle of the exposure is at `t_s`, except that
 /// the effect time_offset shifts the panorama.
