@@ -11,6 +11,8 @@
 #include <opengv/absolute_pose/CentralAbsoluteAdapter.hpp>
 #include <opengv/sac/Ransac.hpp>
 #include <opengv/sac_problems/absolute_pose/AbsolutePoseSacProblem.hpp>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "panvo/landmarks/keypoints.hpp"
@@ -144,6 +146,26 @@ int sectors(std::span<const SightedPoint> sightings) {
   return static_cast<int>(seen.count());
 }
 
+/// Removes the layer of that thickness that holds the most of the heights, which are sorted.
+void remove_fullest_layer(std::vector<double>& heights_m, double layer_m) {
+  auto first = heights_m.begin(), last = heights_m.begin();
+  for (auto from = heights_m.begin(), to = from; from != heights_m.end(); ++from) {
+    while (to != heights_m.end() && *to <= *from + layer_m) ++to;
+    if (to - from > last - first) std::tie(first, last) = std::pair(from, to);
+  }
+  heights_m.erase(first, last);
+}
+
+/// Number of points outside the two fullest horizontal layers: what these hold, a roof and a floor, repeats in a hall.
+int beyond_layers(std::span<const SightedPoint> sightings, double layer_m) {
+  if (layer_m <= 0.0) return static_cast<int>(sightings.size());
+  std::vector<double> heights_m;
+  for (const auto& sighting : sightings) heights_m.push_back(-sighting.point.y());
+  std::ranges::sort(heights_m);
+  for (int layer = 0; layer < 2; ++layer) remove_fullest_layer(heights_m, layer_m);
+  return static_cast<int>(heights_m.size());
+}
+
 /// Reason to reject a pose; empty if there is none.
 std::string objection(const Eigen::Isometry3d& pose, double heading_rad, const PanoramaPoseParameters& parameters) {
   const double offset_m = pose.translation().norm();
@@ -218,6 +240,12 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   if (result.inliers < needed_weakly) return few("inliers", result.inliers);
   refined = refine_pose(refined.landmark_from_panorama, guided, sigma_rad);
 
+  const int beyond = beyond_layers(guided, parameters.layer_m);
+  if (const int least = ((result.inliers < needed ? needed_weakly : needed) + 1) / 2; beyond < least) {
+    result.reason = fmt::format("{} inliers, but only {} outside two layers of equal height, {} needed", result.inliers,
+                                beyond, least);
+    return result;
+  }
   result.reason = objection(refined.landmark_from_panorama, heading_rad, parameters);
   if (!result.reason.empty()) return result;
   result.points = matches_of(guided, matched);

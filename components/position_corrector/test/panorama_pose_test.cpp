@@ -87,13 +87,13 @@ TEST(PanoramaPose, TellsWhichPointsAgreeWithItAndWhereThePanoramaShowsThem) {
   EXPECT_TRUE(estimate_panorama_pose({}, place.landmark, 0.0, {}).points.empty());
 }
 
-/// Eight directions all round with `times` points each, with unique descriptors, seen without error.
+/// Eight directions and heights all round with `times` points each, with unique descriptors, seen without error.
 std::vector<Keypoint> eight_points(int times) {
   std::mt19937_64 random(5);
   std::vector<Keypoint> points;
   for (int i = 0; i < 8 * times; ++i) {
     const double azimuth = M_PI / 4.0 * (i % 8);
-    const Eigen::Vector3d point(15.0 * std::sin(azimuth), i % 2 == 0 ? -4.0 : -1.0, 15.0 * std::cos(azimuth));
+    const Eigen::Vector3d point(15.0 * std::sin(azimuth), -1.0 - 0.9 * (i % 8), 15.0 * std::cos(azimuth));
     Keypoint known;
     known.bearing = point.normalized().cast<float>();
     known.has_point = true;
@@ -159,6 +159,30 @@ TEST(PanoramaPose, IsRefusedWhereAllThatAgreesStandsInOneDirection) {
   const auto result = estimate_panorama_pose(seen, place.landmark, Place::kHeading_rad, {});
   EXPECT_FALSE(result.pose);
   EXPECT_NE(result.reason.find("sectors"), std::string::npos) << result.reason;
+}
+
+/// Points of a roof with its beams and of a floor, and `others` between them, all seen where they are.
+std::vector<Keypoint> roof_and_floor(int others) {
+  std::vector<Keypoint> points = eight_points(4);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool is_roof = i % 2 == 0;
+    points[i].point_in_panorama.y() = is_roof ? -5.3F + 0.1F * static_cast<float>(i % 7) : 1.9F;
+  }
+  const auto between = eight_points(3);
+  points.insert(points.end(), between.begin(), between.begin() + others);
+  for (auto& point : points) point.bearing = point.point_in_panorama.normalized();
+  return points;
+}
+
+TEST(PanoramaPose, IsRefusedWhereNothingButARoofAndAFloorAgree) {
+  const auto hall = roof_and_floor(0), with_goods = roof_and_floor(12);
+  const auto refused = estimate_panorama_pose(hall, hall, 0.0, {});
+  EXPECT_FALSE(refused.pose || refused.weak_pose);
+  EXPECT_NE(refused.reason.find("layers"), std::string::npos) << refused.reason;
+  EXPECT_TRUE(estimate_panorama_pose(with_goods, with_goods, 0.0, {}).pose);
+  PanoramaPoseParameters without;
+  without.layer_m = 0.0;
+  EXPECT_TRUE(estimate_panorama_pose(hall, hall, 0.0, without).pose);
 }
 
 TEST(PanoramaPose, OfFewPointsIsAWeakOne) {

@@ -22,6 +22,7 @@ struct PanoramaPoseParameters {
   int min_weak_inliers = 7;
   double min_inliers_share = 0.25;
   int min_sectors = 4;
+  double layer_m = 0.8;
   double max_turn_deg = 25.0;
   double max_tilt_deg = 20.0;
   double max_offset_m = 25.0;
@@ -47,6 +48,11 @@ struct PanoramaPoseParameters {
     field(&P::min_sectors, "min_sectors", "1",
           "smallest number of sectors, of twelve per turn, with inliers: a single building may repeat elsewhere", 1,
           12);
+    field(
+        &P::layer_m, "layer_m", "m",
+        "thickness of a horizontal layer: of the inliers needed, half must lie outside the two fullest ones, as roofs "
+        "with their beams, floors and rows of pillars repeat at equal distances; 0: no such test",
+        0.0, 10.0);
     field(&P::max_turn_deg, "max_turn_deg", "deg",
           "largest difference between the pose's heading and that of the compressive features", 1.0, 180.0);
     field(&P::max_tilt_deg, "max_tilt_deg", "deg", "largest tilt of the vehicle relative to the landmark", 1.0, 90.0);
