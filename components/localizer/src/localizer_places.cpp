@@ -146,7 +146,9 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
   const bool is_confirmed = asking_ && confirms(now, *asking_);
   if (is_far) return judge_far(std::move(verdict), now, is_confirmed);
   if (sighting.stands_alone) {
-    if (!is_confirmed) verdict.objection = "first sighting, waiting for confirmation by a second view";
+    const bool is_vouched_for = asking_ && vouches(*asking_, now);
+    if (!is_confirmed && !is_vouched_for)
+      verdict.objection = "first sighting, waiting for confirmation by a second view";
   } else if (!is_placed) {
     verdict.objection = "low-inlier match, and the expected position is unknown";
   } else if (!is_expected) {
@@ -188,6 +190,13 @@ void Localizer::take(const Verdict& verdict) {
 bool Localizer::confirms(const PendingRelocalization& now, const PendingRelocalization& before) const {
   const bool is_weaker = now.sighting.stands_alone && !before.sighting.stands_alone;
   return !is_weaker && before.sighting.landmark_id == now.sighting.landmark_id &&
+         before.sighting.stamp_ns < now.sighting.stamp_ns &&
+         std::abs(now.way_m - before.way_m) < parameters_.same_pass_m && agree(before, now);
+}
+
+/// Whether another place, seen shortly before and recognised by many points, gives the same pose.
+bool Localizer::vouches(const PendingRelocalization& before, const PendingRelocalization& now) const {
+  return before.sighting.landmark_id != now.sighting.landmark_id && before.sighting.stands_alone &&
          before.sighting.stamp_ns < now.sighting.stamp_ns &&
          std::abs(now.way_m - before.way_m) < parameters_.same_pass_m && agree(before, now);
 }

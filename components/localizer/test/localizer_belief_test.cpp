@@ -77,6 +77,35 @@ TEST(LocalizerBelief, FindsItselfInTheMapOfAnEarlierDay) {
   EXPECT_LT((localizer.latest().map_from_base.translation() - expected.translation()).norm(), 0.3);
 }
 
+/// Kinds of corrections of a vehicle that does not know where it is and sees two places, once each, the second one displaced.
+std::pair<CorrectionKind, CorrectionKind> see_two_places(double off_m, bool stands_alone = true) {
+  Drive drive(8);
+  Localizer localizer({});
+  for (const std::uint32_t id : {9, 10}) {
+    KnownLandmark known;
+    known.id = id;
+    known.map_from_base.translation() = Eigen::Vector3d(500.0 + 12.0 * (id - 9), 300.0, 2.0);
+    known.covariance = 1e-4 * vision::Matrix6d::Identity();
+    localizer.add_known(known);
+  }
+  localizer.add(drive.now());
+  const Eigen::Isometry3d first = drive.truth;
+  const auto before = localizer.add(drive.sight(9, first)).kind;
+  for (int i = 0; i < 8; ++i) localizer.add(drive.step());
+  Eigen::Isometry3d second = first;
+  second.translation() += Eigen::Vector3d(12.0 + off_m, 0.0, 0.0);
+  auto sighting = drive.sight(10, second);
+  sighting.stands_alone = stands_alone;
+  return {before, localizer.add(sighting).kind};
+}
+
+TEST(LocalizerBelief, FindsItselfByTwoPlacesSeenOnceEachThatAgree) {
+  const std::pair refused(CorrectionKind::kRejected, CorrectionKind::kRejected);
+  EXPECT_EQ(see_two_places(0.0), std::pair(CorrectionKind::kRejected, CorrectionKind::kApplied));
+  EXPECT_EQ(see_two_places(12.0), refused) << "pillars away";
+  EXPECT_EQ(see_two_places(0.0, false), refused) << "few points";
+}
+
 /// A click on a flat map: half a metre, 15 degrees, height and tilt unknown.
 PoseInMap clicked(const Eigen::Isometry3d& map_from_base) {
   PoseInMap said;
