@@ -21,9 +21,10 @@ constexpr int kRefinements = 3;
 constexpr double kModels = 3.0;
 constexpr int kObjectSteps = 24;  // azimuths at which an object is assumed
 constexpr int kAttempts = 2;  // with everything, and without the object on which alone the first one agrees (a bonnet)
-constexpr double kSky_rad = 10.0 * vision::kDegree;  // above the horizon: higher things may be sky
-constexpr double kCertainShare = 0.25;               // of the evidence that must remain when ranges may differ
-constexpr double kFar = 0.01;                        // rad between two bearings: less is noise of the keypoints
+constexpr double kSky_rad = 10.0 * vision::kDegree;      // above the horizon: higher things may be sky
+constexpr double kVehicle_rad = 20.0 * vision::kDegree;  // below the horizon: lower things may be the own vehicle
+constexpr double kCertainShare = 0.25;                   // of the evidence that must remain when ranges may differ
+constexpr double kFar = 0.01;                            // rad between two bearings: less is noise of the keypoints
 constexpr double kMaxDirectionSigma_rad = 20.0 * vision::kDegree;  // a less certain direction is not stated
 
 struct Judged {
@@ -71,12 +72,13 @@ double log10_expected_of(const std::vector<BearingPair>& part, const Judged& jud
   return least_expected(values, sample_size(judged.motion.model), log10_tests).log10_expected;
 }
 
-/// Clouds and the sun stand at the same bearings everywhere: they tell the heading, not the place.
-std::vector<BearingPair> below_sky(const std::vector<BearingPair>& pairs) {
-  std::vector<BearingPair> below;
-  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(below),
-               [](const BearingPair& pair) { return -pair.landmark.y() < std::sin(kSky_rad); });
-  return below;
+/// Clouds and the sun stand at the same bearings everywhere, and so does the own vehicle: they do not tell the place.
+std::vector<BearingPair> between_sky_and_vehicle(const std::vector<BearingPair>& pairs) {
+  std::vector<BearingPair> between;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(between), [](const BearingPair& pair) {
+    return -pair.landmark.y() < std::sin(kSky_rad) && pair.landmark.y() < std::sin(kVehicle_rad);
+  });
+  return between;
 }
 
 /// Whether a pair is seen from the place within an azimuth window.
@@ -191,8 +193,8 @@ SharedViewResult find_shared_view(std::span<const landmarks::Keypoint> query,
   auto considered = pairs;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const auto best = best_motion(considered, log10_tests, sigma_rad);
-    const double without_sky = log10_expected_of(below_sky(considered), best, log10_tests);
-    const double without = std::max(without_sky, without_any_object(considered, best, log10_tests, object_rad));
+    const double between = log10_expected_of(between_sky_and_vehicle(considered), best, log10_tests);
+    const double without = std::max(between, without_any_object(considered, best, log10_tests, object_rad));
     if (attempt == 0 || std::max(best.consensus.log10_expected, without) <= parameters.log10_false_alarms) {
       result.agreeing = best.consensus.size;
       result.log10_expected = best.consensus.log10_expected;
@@ -206,13 +208,14 @@ SharedViewResult find_shared_view(std::span<const landmarks::Keypoint> query,
       result.view = describe(final, result.agreeing_pairs, sigma_rad);
       return result;
     }
-    considered = without_sky > parameters.log10_false_alarms ? below_sky(considered)
-                                                             : outside_object(considered, best, object_rad);
+    considered = between > parameters.log10_false_alarms ? between_sky_and_vehicle(considered)
+                                                         : outside_object(considered, best, object_rad);
   }
-  result.reason = result.log10_expected > parameters.log10_false_alarms
-                      ? fmt::format("{} of {} matches agree, as by chance", result.agreeing, result.matches)
-                      : fmt::format("{} of {} matches agree, but only on one object within {:.0f} deg, or the sky",
-                                    result.agreeing, result.matches, parameters.object_deg);
+  result.reason =
+      result.log10_expected > parameters.log10_false_alarms
+          ? fmt::format("{} of {} matches agree, as by chance", result.agreeing, result.matches)
+          : fmt::format("{} of {} matches agree, but only on one object within {:.0f} deg, or the sky and the vehicle",
+                        result.agreeing, result.matches, parameters.object_deg);
   return result;
 }
 

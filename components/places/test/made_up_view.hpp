@@ -45,6 +45,17 @@ class MadeUpScene {
     }
   }
 
+  /// Parts of the vehicle all round, more than 20 degrees below the horizon; to be viewed from the origin.
+  void add_vehicle(int count) {
+    for (int i = 0; i < count; ++i) {
+      const double azimuth = uniform(-std::numbers::pi, std::numbers::pi);
+      const double elevation = uniform(22.0, 40.0) * vision::kDegree;
+      points_.emplace_back(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                           std::cos(elevation) * std::cos(azimuth));
+      looks_.push_back(new_look());
+    }
+  }
+
   /// Keypoints from a position, with noise of the bearings.
   std::vector<landmarks::Keypoint> view(const Eigen::Isometry3d& place_from_view, double noise_deg = 0.2) {
     std::vector<landmarks::Keypoint> keypoints;

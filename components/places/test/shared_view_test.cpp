@@ -119,6 +119,23 @@ TEST(SharedView, IsFoundPastABonnetThatStaysAhead) {
   EXPECT_LT(std::abs(heading_error_deg(*result.view, 100.0)), 1.0);
 }
 
+TEST(SharedView, IsNotFoundByTheVehicleThatIsSeenAllRoundAtAllPlaces) {
+  MadeUpScene vehicle(60), sky(61), here(62), there(63), scene(64);
+  vehicle.add_vehicle(40);
+  sky.add_clouds(20);
+  scene.add_things(60);
+  const auto origin = Isometry3d::Identity();
+  const auto common = joined(vehicle.view(origin), sky.view(origin));
+  const auto result = find_shared_view(joined(common, there.others(60)), joined(common, here.others(60)), 2.0, {});
+  EXPECT_LT(result.log10_expected, -10.0) << "vehicle and sky themselves agree";
+  EXPECT_FALSE(result.view);
+  EXPECT_THAT(result.reason, testing::HasSubstr("the vehicle"));
+  const auto turned = scene.view(moved(100.0, 0.0, 0.4, 0.2));
+  const auto again = find_shared_view(joined(common, turned), joined(common, scene.view(origin)), 2.0, {});
+  ASSERT_TRUE(again.view) << again.reason;
+  EXPECT_LT(std::abs(heading_error_deg(*again.view, 100.0)), 1.0);
+}
+
 TEST(SharedView, IsNotFoundInPanoramasWithoutKeypoints) { EXPECT_FALSE(find_shared_view({}, {}, 0.0, {}).view); }
 
 }  // namespace

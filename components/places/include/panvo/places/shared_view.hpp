@@ -43,7 +43,7 @@ struct SharedViewResult {
   int matches = 0;                    ///< of keypoints
   int agreeing = 0;                   ///< with the best motion
   double log10_expected = 0.0;        ///< of the number of equally good agreements by chance
-  double log10_without_object = 0.0;  ///< the largest without an object of 60 degrees, or the sky
+  double log10_without_object = 0.0;  ///< the largest without an object of 60 degrees, or without sky and vehicle
   std::string reason;                 ///< why there is no view; else empty
   std::vector<BearingPair> agreeing_pairs;
 };
