@@ -43,17 +43,27 @@ std::vector<std::string> live_system() {
   return {PANVO_RUN, SYSTEMS "/stereo.yaml", "--domain", std::to_string(runtime::test_domain())};
 }
 
-TEST(ShmLeftovers, AreFreedByTheNextRunWhichSaysSo) {
-  if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "/dev/shm does not exist";
+/// The segments of a container that was killed.
+std::set<std::string> left_by_a_killed_one() {
   Process killed(live_system());
-  ASSERT_TRUE(eventually([&] { return segments_of(killed).size() >= 2; })) << killed.output();
+  EXPECT_TRUE(eventually([&] { return segments_of(killed).size() >= 2; })) << killed.output();
   const auto left = segments_of(killed);
   killed.signal(SIGKILL);
   killed.wait();
+  return left;
+}
+
+TEST(ShmLeftovers, AreFreedByTheNextRunWhichSaysSo) {
+  if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "/dev/shm does not exist";
+  auto left = left_by_a_killed_one();
+  ASSERT_GE(left.size(), 2U);
   ASSERT_TRUE(eventually([&] {  // segments younger than some seconds are not freed
     Process next(live_system());
     const bool has_begun = eventually([&] { return segments_of(next).size() >= 2; });
-    return has_begun && is_gone(left) && next.output().find("freed") != std::string::npos;
+    const bool says_so = next.output().find("freed") != std::string::npos;
+    if (has_begun && is_gone(left) && says_so) return true;
+    if (is_gone(left)) left = left_by_a_killed_one();  // panvo of somebody else on this machine was first
+    return false;
   }));
 }
 
