@@ -13,7 +13,7 @@ Renders panoramas of a drive at noon in summer, whose landmarks are the library,
 those is compared with the whole library, without a prior position. Prints a table of the share of revisits that were recognised, of errors of
 position and heading, and of wrong matches, with 95 % intervals. Drives are rendered once and cached.
 
-  --quick          one seed; about half an hour of two cores
+  --quick          one seed; about an hour of two cores
   --seeds LIST     seeds of the campuses (default: 601,602,603). With two or more, each library is also searched on the other campuses, where
                    every match is wrong
   --route ROUTE    route (default: dataset_ii, 1.4 km); see panvo simulate --help

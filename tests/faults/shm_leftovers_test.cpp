@@ -57,14 +57,17 @@ TEST(ShmLeftovers, AreFreedByTheNextRunWhichSaysSo) {
   if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "/dev/shm does not exist";
   auto left = left_by_a_killed_one();
   ASSERT_GE(left.size(), 2U);
+  std::string said;
   ASSERT_TRUE(eventually([&] {  // segments younger than some seconds are not freed
     Process next(live_system());
     const bool has_begun = eventually([&] { return segments_of(next).size() >= 2; });
-    const bool says_so = next.output().find("freed") != std::string::npos;
+    said = next.output();
+    const bool says_so = said.find("freed") != std::string::npos;
     if (has_begun && is_gone(left) && says_so) return true;
     if (is_gone(left)) left = left_by_a_killed_one();  // panvo of somebody else on this machine was first
     return false;
-  }));
+  })) << "it said: "
+      << said;
 }
 
 TEST(ShmLeftovers, LeaveWhatIsOfSomethingElseOrJustBeingMade) {

@@ -21,7 +21,7 @@ struct Hall {
     build_hall(site, *scene);
   }
 
-  /// The corners of what stands on plots, behind which `first` meshes of the shell lie.
+  /// The corners of what stands on plots, which are the last meshes.
   std::set<std::tuple<float, float, float>> corners_on_plots() const {
     std::set<std::tuple<float, float, float>> corners;
     for (std::size_t i = scene->fixed.size() - plan_plots(site).size(); i < scene->fixed.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <cmath>
+#include <string_view>
 
 #include "../shapes.hpp"
 #include "hall_parts.hpp"
