@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <set>
@@ -60,12 +61,13 @@ TEST(ShmLeftovers, AreFreedByTheNextRunWhichSaysSo) {
   std::string said;
   ASSERT_TRUE(eventually([&] {  // segments younger than some seconds are not freed
     Process next(live_system());
-    const bool has_begun = eventually([&] { return segments_of(next).size() >= 2; });
+    const bool has_begun = eventually([&] { return segments_of(next).size() >= 2; }, std::chrono::seconds(20));
+    const bool is_freed = has_begun && is_gone(left);
+    const auto says_so = [&] { return next.output().find("freed") != std::string::npos; };
+    const bool is_said = is_freed && eventually(says_so, std::chrono::seconds(5));
     said = next.output();
-    const bool says_so = said.find("freed") != std::string::npos;
-    if (has_begun && is_gone(left) && says_so) return true;
-    if (is_gone(left)) left = left_by_a_killed_one();  // panvo of somebody else on this machine was first
-    return false;
+    if (is_freed && !is_said) left = left_by_a_killed_one();  // panvo of somebody else on this machine was first
+    return is_said;
   })) << "it said: "
       << said;
 }
