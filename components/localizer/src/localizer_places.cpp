@@ -189,15 +189,18 @@ void Localizer::take(const Verdict& verdict) {
 /// Whether a sighting repeats an earlier one of the same pass. One of few points does not confirm one that stands alone.
 bool Localizer::confirms(const PendingRelocalization& now, const PendingRelocalization& before) const {
   const bool is_weaker = now.sighting.stands_alone && !before.sighting.stands_alone;
-  return !is_weaker && before.sighting.landmark_id == now.sighting.landmark_id &&
-         before.sighting.stamp_ns < now.sighting.stamp_ns &&
-         std::abs(now.way_m - before.way_m) < parameters_.same_pass_m && agree(before, now);
+  return !is_weaker && before.sighting.landmark_id == now.sighting.landmark_id && follows(now, before);
 }
 
 /// Whether another place, seen shortly before and recognised by many points, gives the same pose.
 bool Localizer::vouches(const PendingRelocalization& before, const PendingRelocalization& now) const {
-  return before.sighting.landmark_id != now.sighting.landmark_id && before.sighting.stands_alone &&
-         before.sighting.stamp_ns < now.sighting.stamp_ns &&
+  return before.sighting.stands_alone && before.sighting.landmark_id != now.sighting.landmark_id &&
+         follows(now, before);
+}
+
+/// Whether a sighting comes soon after another one and gives the same pose.
+bool Localizer::follows(const PendingRelocalization& now, const PendingRelocalization& before) const {
+  return before.sighting.stamp_ns < now.sighting.stamp_ns &&
          std::abs(now.way_m - before.way_m) < parameters_.same_pass_m && agree(before, now);
 }
 

@@ -44,7 +44,7 @@ class Planner {
       Random common = random_.part(6).part(static_cast<std::uint64_t>(use));
       wish = draw_wish(use, common);
     } else if (site_.parameters.layout == Layout::kHall) {
-      wish.setback_m = random.uniform(-1.9, -0.9);  // there is no pavement
+      wish.setback_m = random.uniform(-1.9, -0.9);  // plots begin at the aisle, without a pavement
     }
     return wish;
   }

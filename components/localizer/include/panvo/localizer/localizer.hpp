@@ -192,6 +192,7 @@ class Localizer {
   Verdict judge_far(Verdict verdict, const PendingRelocalization& now, bool is_confirmed) const;
   void take(const Verdict& verdict);
   bool confirms(const PendingRelocalization& now, const PendingRelocalization& before) const;
+  bool follows(const PendingRelocalization& now, const PendingRelocalization& before) const;
   bool vouches(const PendingRelocalization& before, const PendingRelocalization& now) const;
   bool agree(const PendingRelocalization& before, const PendingRelocalization& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;

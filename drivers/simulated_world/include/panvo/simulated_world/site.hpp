@@ -30,7 +30,7 @@ struct SiteParameters {
   Layout layout = Layout::kVaried;
   Season season = Season::kSummer;
   bool wet = false;                    ///< after rain: water on roads and pavements
-  std::optional<std::uint64_t> day{};  ///< of other parked cars, and other goods in a hall
+  std::optional<std::uint64_t> day{};  ///< another day: other cars are parked, a hall holds other goods
 };
 
 class KerbField;
