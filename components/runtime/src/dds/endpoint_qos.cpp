@@ -25,8 +25,13 @@ namespace {
 constexpr std::chrono::milliseconds kHeartbeatPeriod{20};
 constexpr int kPreallocatedSamples = 4;
 
-// ROS 2's QoS of service topics.
-constexpr interfaces::Qos kServiceQos{.depth = 10};
+// ROS 2's QoS of service topics, but a second of requests at their default limit instead of 10. All clients of a service
+// read the same replies. A new client keeps its first one until it knows that the earlier ones are not for it;
+// meanwhile, the replies to a busy client must not push it out of the history of the service, nor of the reader.
+constexpr interfaces::Qos kServiceQos{.depth = 1000};
+
+// How soon the reader of a service finds that out. Fast DDS's defaults are 70 ms and 5 ms.
+constexpr std::chrono::milliseconds kServiceAcknowledgement{1};
 
 fdds::DurabilityQosPolicyKind durability_kind(Durability durability) {
   return durability == Durability::kTransientLocal ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS
@@ -126,7 +131,10 @@ void apply(const TopicDescription& topic, fdds::DataReaderQos& qos) {
 }
 
 void apply(const ServiceDescription& service, fdds::DataWriterQos& qos) { apply_service(service, qos); }
-void apply(const ServiceDescription& service, fdds::DataReaderQos& qos) { apply_service(service, qos); }
+void apply(const ServiceDescription& service, fdds::DataReaderQos& qos) {
+  apply_service(service, qos);
+  set_acknowledgement_delays(to_dds(kServiceAcknowledgement), qos);
+}
 
 std::string describe_offer_refused(const std::string& topic, fdds::QosPolicyId_t policy) {
   const auto [difference, remedy] = policy_text(policy);

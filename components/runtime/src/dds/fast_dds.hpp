@@ -99,6 +99,18 @@ inline void set_heartbeat(Duration period, fdds::DataWriterQos& qos) {
 #endif
 }
 
+/// How long a reader waits before it tells a new writer what it lacks, and before it answers a heartbeat.
+inline void set_acknowledgement_delays(Duration delay, fdds::DataReaderQos& qos) {
+  auto& times = qos.reliable_reader_qos().times;
+#ifdef PANVO_FAST_DDS_3
+  times.initial_acknack_delay = delay;
+  times.heartbeat_response_delay = delay;
+#else
+  times.initialAcknackDelay = delay;
+  times.heartbeatResponseDelay = delay;
+#endif
+}
+
 /// Readers take messages in XCDR1 only.
 inline void set_representation(fdds::DataReaderQos& qos) {
 #ifdef PANVO_FAST_DDS_3

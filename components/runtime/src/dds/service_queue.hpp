@@ -13,7 +13,7 @@ namespace panvo::runtime::dds {
 /// The thread and queue shared by the services of a bridge. Thread-safe.
 class ServiceQueue {
  public:
-  /// Per service; DDS holds ten more.
+  /// Per service.
   static constexpr std::size_t kMaxWaiting = 32;
   using Clock = std::chrono::steady_clock;
 

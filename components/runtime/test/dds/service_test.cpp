@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Services between two processes.
 #include <algorithm>
+#include <atomic>
 #include <future>
 #include <initializer_list>
 #include <optional>
@@ -61,6 +62,23 @@ TEST_F(BetweenProcesses, EachClientGetsTheAnswersToItsOwnRequests) {
     EXPECT_EQ(peer.ask("call " + name + " a" + std::to_string(i)), "here:a" + std::to_string(i));
   second.get();
   EXPECT_TRUE(eventually([&] { return server->counters().answered == 60; }));
+}
+
+TEST_F(BetweenProcesses, ANewClientGetsItsAnswerWhileAnotherAsksAllTheTime) {
+  bridge = make_dds_bridge({.domain = domain, .profiles = "", .name = "panvo_test", .requests_per_s = 1e6});
+  const auto name = unique_topic("service");
+  const auto server = bridge->serve(service(name), echo);
+  PeerProcess busy_peer(domain);
+  std::atomic<bool> enough = false;
+  std::future<void> busy = std::async(std::launch::async, [&] {
+    while (!enough) EXPECT_EQ(busy_peer.ask("call " + name + " busy"), "here:busy");
+  });
+  for (int i = 0; i < 10 && !HasFailure(); ++i) {
+    PeerProcess new_peer(domain);
+    EXPECT_EQ(new_peer.ask("call " + name + " new"), "here:new");
+  }
+  enough = true;
+  busy.get();
 }
 
 TEST_F(BetweenProcesses, ACallThatNobodyAnswersEnds) {
