@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "dead_reckoning.hpp"
@@ -314,11 +313,7 @@ class MotionStage::Implementation {
 
 MotionStage::MotionStage(const vision::RectifiedStereo& stereo, const MotionParameters& parameters,
                          vision::StageObserver* observer) {
-  if (const auto problems = vision::validate(stereo); !problems.empty()) {
-    std::string message = "invalid rectified calibration:";
-    for (const auto& problem : problems) message += "\n  - " + problem;
-    throw std::invalid_argument(message);
-  }
+  vision::expect_valid(stereo);
   implementation_ = std::make_unique<Implementation>(stereo, parameters, observer);
 }
 

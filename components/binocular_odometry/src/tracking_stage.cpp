@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 #include "coarse_motion.hpp"
@@ -316,11 +315,7 @@ class TrackingStage::Implementation {
 
 TrackingStage::TrackingStage(const vision::RectifiedStereo& stereo, const Parameters& parameters,
                              vision::StageObserver* observer) {
-  if (const auto problems = vision::validate(stereo); !problems.empty()) {
-    std::string message = "invalid rectified calibration:";
-    for (const auto& problem : problems) message += "\n  - " + problem;
-    throw std::invalid_argument(message);
-  }
+  vision::expect_valid(stereo);
   implementation_ = std::make_unique<Implementation>(stereo, parameters, observer);
 }
 

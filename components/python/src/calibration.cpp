@@ -15,17 +15,11 @@
 namespace panvo::python {
 namespace {
 
-/// Throws ValueError with all problems.
-void expect_valid(const vision::RectifiedStereo& rectified) {
-  const auto problems = vision::validate(rectified);
-  if (!problems.empty()) throw py::value_error(fmt::format("invalid calibration: {}", fmt::join(problems, "; ")));
-}
-
 StereoPair rectified_pair(int width, int height, double fx, double fy, double cx, double cy, double baseline_m) {
   StereoPair pair;
   pair.rectified.camera = {fx, fy, cx, cy, width, height};
   pair.rectified.baseline_m = baseline_m;
-  expect_valid(pair.rectified);
+  vision::expect_valid(pair.rectified);
   pair.raw.left.pinhole = pair.raw.right.pinhole = pair.rectified.camera;
   pair.raw.right_from_left.translation().x() = -baseline_m;
   return pair;

@@ -156,7 +156,7 @@ class Calibration(unittest.TestCase):
 
     def test_that_cannot_be_is_refused(self):
         for wrong in ({"fx": float("nan")}, {"baseline_m": float("nan")}, {"baseline_m": -0.5}, {"cx": float("inf")}, {"width": 0}):
-            with self.subTest(wrong), self.assertRaisesRegex(ValueError, "invalid calibration: "):
+            with self.subTest(wrong), self.assertRaisesRegex(ValueError, "invalid rectified calibration:"):
                 calibration(**wrong)
         with self.assertRaisesRegex(ValueError, r"base_from_left: expected shape \(4, 4\), not \(3, 4\)"):
             calibration().base_from_left = np.eye(4)[:3]

@@ -65,13 +65,24 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
     waits_at_end_ = parameters.wait_at_end;
     if (parameters.start_paused) context.playback().pause();
     context.source(*this);
-    offer_player_services(context, [this](std::int64_t time_ns) { return seek(time_ns); });
+    offer_player_services(context);
   }
 
   std::optional<std::int64_t> next_stamp_ns() override {
     const std::lock_guard lock(seek_mutex_);
     if (const auto time_ns = std::exchange(sought_ns_, std::nullopt)) move_to(*time_ns);
     return message_ ? std::optional(message_->timestamp_ns) : std::nullopt;
+  }
+
+  std::optional<runtime::StampRange> range() const override {
+    const auto& metadata = bag_->metadata();
+    return runtime::StampRange{metadata.start_ns, metadata.start_ns + metadata.duration_ns};
+  }
+
+  /// The player's thread moves the bag when it asks for the next stamp.
+  void seek(std::int64_t stamp_ns) override {
+    const std::lock_guard lock(seek_mutex_);
+    sought_ns_ = stamp_ns;
   }
 
   void emit() override {
@@ -128,18 +139,6 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
       if (topics[i].name == topic.name && topics[i].type == topic.type) return outputs_[i] != nullptr;
     }
     return false;
-  }
-
-  /// The player's thread moves the bag when it asks for the next stamp.
-  bool seek(std::int64_t time_ns) {
-    {
-      const std::lock_guard lock(seek_mutex_);
-      sought_ns_ = time_ns;
-    }
-    const auto& metadata = bag_->metadata();
-    const auto end_ns = metadata.start_ns + metadata.duration_ns;
-    context_.playback().move_to(std::clamp(time_ns, metadata.start_ns, end_ns));
-    return true;
   }
 
   /// Collects earlier latched messages to be played again: viewers drop them when the time goes back, and never saw those

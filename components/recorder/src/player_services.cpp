@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "player_services.hpp"
 
-#include <utility>
-
 #include "rosbag2_services.hpp"
 
 namespace panvo::recorder {
 
 using namespace rosbag2_interfaces::srv;  // NOLINT(google-build-using-namespace): the requests and responses
 
-void offer_player_services(runtime::Context& context, std::function<bool(std::int64_t)> seek) {
+void offer_player_services(runtime::Context& context) {
   runtime::Playback& playback = context.playback();
   context.serve(services::kPause, [&playback](const Pause_Request&) {
     playback.pause();
@@ -38,9 +36,9 @@ void offer_player_services(runtime::Context& context, std::function<bool(std::in
     response.success(playback.set_rate(request.rate()));
     return response;
   });
-  context.serve(services::kSeek, [seek = std::move(seek)](const Seek_Request& request) {
+  context.serve(services::kSeek, [&playback](const Seek_Request& request) {
     Seek_Response response;
-    response.success(seek(std::int64_t{request.time().sec()} * 1'000'000'000 + request.time().nanosec()));
+    response.success(playback.seek(std::int64_t{request.time().sec()} * 1'000'000'000 + request.time().nanosec()));
     return response;
   });
 }

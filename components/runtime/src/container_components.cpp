@@ -164,6 +164,7 @@ void Container::Implementation::make(LoadedComponent& entry) {
     problems.push_back(description.name + " plays recorded data and must be loaded before the run starts");
   }
   if (!problems.empty()) throw ConfigError(std::move(problems));
+  if (state.source && !host_.replay_order) host_.pacer.add(*state.source);
 }
 
 auto Container::Implementation::load(const ComponentDescription& description, bool by_request) -> Loaded {

@@ -127,6 +127,7 @@ void Context::State::start() {
 }
 
 void Context::State::stop() {
+  if (source) host.pacer.remove(*source);
   follow_clock(false);
   for (Channel* channel : inputs) channel->remove_reader(this);
   inputs.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pacer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -61,6 +62,45 @@ bool Pacer::set_rate(double rate) {
     state_.rate = rate;
   }
   tell(false);
+  return true;
+}
+
+void Pacer::add(Source& source) {
+  const std::lock_guard lock(sources_mutex_);
+  sources_.push_back(&source);
+}
+
+void Pacer::remove(Source& source) {
+  const std::lock_guard lock(sources_mutex_);
+  std::erase(sources_, &source);
+}
+
+std::optional<StampRange> Pacer::range() const {
+  const std::lock_guard lock(sources_mutex_);
+  return range_of_sources();
+}
+
+std::optional<StampRange> Pacer::range_of_sources() const {
+  std::optional<StampRange> whole;
+  for (const Source* source : sources_) {
+    const auto range = source->range();
+    if (!range) continue;
+    if (!whole) whole = range;
+    whole->first_ns = std::min(whole->first_ns, range->first_ns);
+    whole->last_ns = std::max(whole->last_ns, range->last_ns);
+  }
+  return whole;
+}
+
+bool Pacer::seek(std::int64_t stamp_ns) {
+  const std::lock_guard lock(sources_mutex_);
+  const auto range = range_of_sources();
+  if (!range) return false;
+  const std::int64_t to_ns = std::clamp(stamp_ns, range->first_ns, range->last_ns);
+  for (Source* source : sources_) {
+    if (source->range()) source->seek(to_ns);
+  }
+  move_to(to_ns);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "panvo/runtime/source.hpp"
 
@@ -32,6 +33,9 @@ class Pacer final : public Playback {
   void start(std::int64_t first_stamp_ns, std::int64_t now_ns);
   /// `changed` is called after each change, `moved` before it after a move.
   void on_change(std::function<void()> changed, std::function<void()> moved);
+  /// seek() moves the source until it is removed.
+  void add(Source& source);
+  void remove(Source& source);
 
   /// A source steps.
   void reach(std::int64_t stamp_ns) { reached_ns_ = stamp_ns; }
@@ -44,10 +48,14 @@ class Pacer final : public Playback {
   std::optional<std::int64_t> stamp_ns() const override;
   double rate() const override { return state().rate; }
   bool set_rate(double rate) override;
-  void move_to(std::int64_t stamp_ns) override;
+  std::optional<StampRange> range() const override;
+  bool seek(std::int64_t stamp_ns) override;
 
  private:
   void set_paused(bool is_paused);
+  std::optional<StampRange> range_of_sources() const;
+  /// What is stamped so is due now.
+  void move_to(std::int64_t stamp_ns);
   /// Continues from the present stamp.
   void go_on_from_here();
   void tell(bool is_move);
@@ -57,6 +65,8 @@ class Pacer final : public Playback {
   mutable std::mutex mutex_;
   State state_;
   std::atomic<std::int64_t> reached_ns_ = kNever;
+  mutable std::mutex sources_mutex_;
+  std::vector<Source*> sources_;
   std::mutex telling_mutex_;
   std::function<void()> changed_ = [] {}, moved_ = [] {};
 };

@@ -59,15 +59,52 @@ TEST(Pacer, KeepsARateThatWasSetBeforeTheRun) {
   EXPECT_EQ(pacer.state().due_ns(108 * kSecond), 6 * kSecond);
 }
 
-TEST(Pacer, TellsOfEachChangeOnce) {
+/// Records where it is moved.
+class MovableSource final : public Source {
+ public:
+  explicit MovableSource(std::optional<StampRange> range) : range_(range) {}
+  std::optional<std::int64_t> next_stamp_ns() override { return std::nullopt; }
+  void emit() override {}
+  Progress progress() const override { return {}; }
+  std::optional<StampRange> range() const override { return range_; }
+  void seek(std::int64_t stamp_ns) override { moved_to.push_back(stamp_ns); }
+
+  std::vector<std::int64_t> moved_to;
+
+ private:
+  const std::optional<StampRange> range_;
+};
+
+TEST(Pacer, MovesTheSourcesThatCanBeMovedWithinWhatTheyHold) {
+  MovableSource first({{100, 200}}), second({{150, 300}}), fixed(std::nullopt);
   Pacer pacer;
+  EXPECT_FALSE(pacer.range());
+  EXPECT_FALSE(pacer.seek(120)) << "nothing is played";
+  for (auto* source : {&first, &second, &fixed}) pacer.add(*source);
+  ASSERT_TRUE(pacer.range());
+  EXPECT_EQ(pacer.range()->first_ns, 100);
+  EXPECT_EQ(pacer.range()->last_ns, 300);
+  for (const std::int64_t to : {50, 250, 400}) EXPECT_TRUE(pacer.seek(to));
+  EXPECT_EQ(first.moved_to, (std::vector<std::int64_t>{100, 250, 300}));
+  EXPECT_EQ(second.moved_to, first.moved_to);
+  EXPECT_TRUE(fixed.moved_to.empty());
+  pacer.remove(second);
+  EXPECT_EQ(pacer.range()->last_ns, 200);
+  pacer.remove(first);
+  EXPECT_FALSE(pacer.range());
+}
+
+TEST(Pacer, TellsOfEachChangeOnce) {
+  MovableSource source({{0, 10 * kSecond}});
+  Pacer pacer;
+  pacer.add(source);
   int changes = 0, moves = 0;
   pacer.on_change([&] { ++changes; }, [&] { ++moves; });
   const auto before = pacer.state().version;
   pacer.pause();
   pacer.pause();
   EXPECT_EQ(changes, 1);
-  pacer.move_to(7 * kSecond);
+  pacer.seek(7 * kSecond);
   EXPECT_EQ(changes, 2);
   EXPECT_EQ(moves, 1);
   EXPECT_EQ(pacer.state().stamp_ns, 7 * kSecond);
@@ -75,12 +112,14 @@ TEST(Pacer, TellsOfEachChangeOnce) {
 }
 
 TEST(Pacer, KnowsTheStampThatIsReached) {
+  MovableSource source({{0, 10}});
   Pacer pacer;
+  pacer.add(source);
   EXPECT_EQ(pacer.stamp_ns(), std::nullopt);
   pacer.reach(8);
   EXPECT_EQ(pacer.stamp_ns(), 8);
   pacer.pause();
-  pacer.move_to(5);
+  pacer.seek(5);
   EXPECT_EQ(pacer.stamp_ns(), 5) << "paused, no step tells it";
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "camera_checks.hpp"
 #include "positive.hpp"
@@ -58,6 +59,14 @@ std::vector<std::string> validate(const RectifiedStereo& stereo) {
   check_rotation("rotation rectified_left_from_left", stereo.rectified_left_from_left, problems);
   check_rotation("rotation rectified_right_from_right", stereo.rectified_right_from_right, problems);
   return problems;
+}
+
+void expect_valid(const RectifiedStereo& stereo) {
+  const auto problems = validate(stereo);
+  if (problems.empty()) return;
+  std::string message = "invalid rectified calibration:";
+  for (const auto& problem : problems) message += "\n  - " + problem;
+  throw std::invalid_argument(message);
 }
 
 }  // namespace panvo::vision

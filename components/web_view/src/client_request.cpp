@@ -2,6 +2,7 @@
 #include "client_request.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -150,8 +151,31 @@ ClientRequest parse_text(std::string_view frame) {
   return request_of(object);
 }
 
+namespace {
+
+/// Command, speed, whether to move, where to, and the id with its length.
+ControlPlayback control_of(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kSpeed = 1, kMoves = 5, kTime = 6, kIdLength = 14, kId = 18;
+  constexpr std::uint8_t kPlay = 0, kPause = 1;
+  if (bytes.size() < kId || bytes.size() - kId < read_u32(bytes.subspan(kIdLength)))
+    throw ProtocolError("a binary message is cut off");
+  if (bytes[0] != kPlay && bytes[0] != kPause)
+    throw ProtocolError("playback command " + std::to_string(bytes[0]) + " is not supported");
+  const std::uint64_t time_ns = read_u64(bytes.subspan(kTime));
+  const bool moves = bytes[kMoves] != 0;
+  if (moves && time_ns > std::uint64_t{std::numeric_limits<std::int64_t>::max()})
+    throw ProtocolError("a time to seek is out of range");
+  const auto id = bytes.subspan(kId, read_u32(bytes.subspan(kIdLength)));
+  if (id.size() > kMaxNameLength) throw ProtocolError("an id is longer than 1000 bytes");
+  return {bytes[0] == kPlay, std::bit_cast<float>(read_u32(bytes.subspan(kSpeed))),
+          moves ? std::optional(static_cast<std::int64_t>(time_ns)) : std::nullopt,
+          {id.begin(), id.end()}};
+}
+
+}  // namespace
+
 ClientRequest parse_binary(std::span<const std::uint8_t> frame) {
-  constexpr std::uint8_t kPublish = 1, kCallService = 2;
+  constexpr std::uint8_t kPublish = 1, kCallService = 2, kControlPlayback = 3;
   if (frame.empty()) throw ProtocolError("a binary message is empty");
   const auto need = [&](std::size_t bytes) {
     if (frame.size() < bytes) throw ProtocolError("a binary message is cut off");
@@ -170,6 +194,7 @@ ClientRequest parse_binary(std::span<const std::uint8_t> frame) {
                        {encoding.begin(), encoding.end()},
                        frame.subspan(13 + length)};
   }
+  if (frame[0] == kControlPlayback) return control_of(frame.subspan(1));
   throw ProtocolError("binary operation " + std::to_string(frame[0]) + " is not supported");
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -65,9 +66,16 @@ struct FetchAsset {
   std::string uri;  ///< "package://PACKAGE/FILE"
   std::uint32_t request;
 };
+/// Pauses, resumes, moves or speeds up what is played.
+struct ControlPlayback {
+  bool is_to_play;
+  double speed;  ///< relative to the recorded one
+  std::optional<std::int64_t> seek_ns;
+  std::string id;  ///< to be repeated in the answer
+};
 
 using ClientRequest = std::variant<Subscribe, Unsubscribe, Advertise, Unadvertise, Publish, GetParameters,
-                                   SetParameters, WatchParameters, CallService, WatchConnectionGraph, FetchAsset>;
+                                   SetParameters, WatchParameters, CallService, WatchConnectionGraph, FetchAsset, ControlPlayback>;
 
 /// Reads a text frame. Throws ProtocolError.
 ClientRequest parse_text(std::string_view frame);

@@ -54,7 +54,9 @@ void ClientSession::welcome(bool has_time) {
   if (settings.allow_control) capabilities.insert(capabilities.end(), {"clientPublish", "services"});
   if (!settings.assets.empty()) capabilities.emplace_back("assets");
   if (has_time) capabilities.emplace_back("time");
-  sender_.send_text(server_info("panvo", capabilities, view_.session() + (has_time ? "-timed" : "")));
+  const auto range = view_.playback().range();
+  if (range && settings.allow_control) capabilities.emplace_back("playbackControl");
+  sender_.send_text(server_info("panvo", capabilities, view_.session() + (has_time ? "-timed" : ""), range));
 }
 
 void ClientSession::tell(const ChannelTable::Change& change, std::vector<std::shared_ptr<void>>& ended) {
@@ -76,6 +78,14 @@ void ClientSession::tell_time(std::int64_t time_ns) {
     sender_.send_text(web_view::advertise({}));  // on this, Lichtblick takes the types of all channels into the session
   }
   sender_.send_binary(time_frame(time_ns));
+}
+
+void ClientSession::tell_playback(const PlaybackState& state, bool is_moved) {
+  const std::lock_guard lock(mutex_);
+  if (!told_playback_) return;
+  if (!is_moved && state.status == told_playback_->status && state.speed == told_playback_->speed) return;
+  told_playback_ = state;
+  sender_.send_binary(playback_frame(state, is_moved, ""));
 }
 
 void ClientSession::tell_drops() {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -44,6 +45,9 @@ class ClientSession final : public WebServer::Session {
   void tell(const ConnectionGraph& graph);
   /// Restarts the session of a client that was welcomed without a time, because its clock differed.
   void tell_time(std::int64_t time_ns);
+  /// To a client that controls the playback, on a change of its status or speed, or if the time was moved. Others may not
+  /// know the message.
+  void tell_playback(const PlaybackState& state, bool is_moved);
   /// A warning if messages were dropped since the last one, at most every 10 s.
   void tell_drops();
 
@@ -74,6 +78,7 @@ class ClientSession final : public WebServer::Session {
   void handle(const CallService& request);
   void handle(const WatchConnectionGraph& request);
   void handle(const FetchAsset& request);
+  void handle(const ControlPlayback& request);
   void subscribe(const Subscribe::One& wanted);
   std::shared_ptr<void> take_subscription(std::uint32_t id);
   void advertise(const Advertise::One& wanted);
@@ -90,7 +95,8 @@ class ClientSession final : public WebServer::Session {
   std::atomic<bool> has_time_{false};
   std::uint64_t told_drops_ = 0;
   std::chrono::steady_clock::time_point drops_told_at_{};
-  mutable std::mutex mutex_;  // guards the next six; not held while a topic is opened or closed
+  mutable std::mutex mutex_;  // guards the next seven; not held while a topic is opened or closed
+  std::optional<PlaybackState> told_playback_;  // of a client that controls it
   bool wants_graph_ = false;
   ConnectionGraph told_graph_;
   bool watches_all_parameters_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clients ask of nodes: parameters, services, who is connected to whom; and assets.
+// What clients ask of nodes: parameters, services, who is connected to whom; assets; and playback.
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -7,6 +7,7 @@
 #include "assets.hpp"
 #include "client_session.hpp"
 #include "panvo/interfaces/node_topics.hpp"
+#include "playback.hpp"
 #include "protocol_error.hpp"
 #include "view.hpp"
 
@@ -114,6 +115,20 @@ void ClientSession::handle(const WatchConnectionGraph& request) {
     told_graph_ = {};
   }
   if (request.is_on) tell(connection_graph_of(view_.topics().nodes()));
+}
+
+void ClientSession::handle(const ControlPlayback& request) {
+  refuse_without_control();
+  control(view_.playback(), request);
+  const auto state = state_of(view_.playback());
+  if (!state) throw ProtocolError("the player has ended");
+  const bool is_moved = request.seek_ns.has_value();
+  {
+    const std::lock_guard lock(mutex_);
+    told_playback_ = state;
+    sender_.send_binary(playback_frame(*state, is_moved, request.id));
+  }
+  if (is_moved) view_.tell_playback(*state, this);
 }
 
 bool ClientSession::wants_graph() const {

@@ -16,6 +16,11 @@ inline std::uint32_t read_u32(std::span<const std::uint8_t> bytes) {
   return value;
 }
 
+/// `bytes` has at least eight.
+inline std::uint64_t read_u64(std::span<const std::uint8_t> bytes) {
+  return read_u32(bytes) | (std::uint64_t{read_u32(bytes.subspan(4))} << 32);
+}
+
 template <std::unsigned_integral Integer>
 void append(std::vector<std::uint8_t>& bytes, Integer value) {
   for (std::size_t i = 0; i < sizeof(Integer); ++i)

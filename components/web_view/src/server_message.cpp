@@ -2,6 +2,7 @@
 #include "server_message.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -67,19 +68,30 @@ std::vector<std::uint8_t> asset(std::uint32_t request, std::uint8_t status, std:
   return frame;
 }
 
+json time_of(std::int64_t stamp_ns) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  return {{"sec", stamp_ns / kSecond}, {"nsec", stamp_ns % kSecond}};
+}
+
 }  // namespace
 
-std::string server_info(std::string_view name, const std::vector<std::string>& capabilities, std::string_view session) {
+std::string server_info(std::string_view name, const std::vector<std::string>& capabilities, std::string_view session,
+                        const std::optional<runtime::StampRange>& range) {
   // Lichtblick publishes poses only to a server that names a distribution of ROS. It then also has types of Humble, and
   // complains if those of Jazzy have more constants; a client that may only read is spared this.
   json metadata = json::object();
   if (std::ranges::find(capabilities, "clientPublish") != capabilities.end()) metadata["ROS_DISTRO"] = kRosDistro;
-  return serialized({{"op", "serverInfo"},
-                     {"name", name},
-                     {"capabilities", capabilities},
-                     {"supportedEncodings", {kEncoding}},
-                     {"metadata", metadata},
-                     {"sessionId", session}});
+  json info{{"op", "serverInfo"},
+            {"name", name},
+            {"capabilities", capabilities},
+            {"supportedEncodings", {kEncoding}},
+            {"metadata", metadata},
+            {"sessionId", session}};
+  if (range) {
+    info["dataStartTime"] = time_of(range->first_ns);
+    info["dataEndTime"] = time_of(range->last_ns);
+  }
+  return serialized(info);
 }
 
 std::string status(StatusLevel level, std::string_view message) {
@@ -173,6 +185,16 @@ std::vector<std::uint8_t> service_response_head(std::uint32_t service, std::uint
 std::vector<std::uint8_t> time_frame(std::int64_t time_ns) {
   std::vector<std::uint8_t> frame{2};
   append(frame, static_cast<std::uint64_t>(time_ns));
+  return frame;
+}
+
+std::vector<std::uint8_t> playback_frame(const PlaybackState& state, bool is_moved, std::string_view id) {
+  std::vector<std::uint8_t> frame{5, static_cast<std::uint8_t>(state.status)};
+  append(frame, static_cast<std::uint64_t>(state.time_ns));
+  append(frame, std::bit_cast<std::uint32_t>(static_cast<float>(state.speed)));
+  frame.push_back(is_moved ? 1 : 0);
+  append(frame, static_cast<std::uint32_t>(id.size()));
+  frame.insert(frame.end(), id.begin(), id.end());
   return frame;
 }
 

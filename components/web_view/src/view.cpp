@@ -10,6 +10,7 @@
 #include "access.hpp"
 #include "client_session.hpp"
 #include "panvo/interfaces/node_topics.hpp"
+#include "playback.hpp"
 
 namespace panvo::web_view {
 namespace {
@@ -146,10 +147,21 @@ std::optional<std::int64_t> View::time_ns() const {
 
 void View::tell_time() {
   const auto now_ns = time_ns();
-  if (!now_ns || *now_ns == told_time_ns_) return;
-  told_time_ns_ = *now_ns;
+  const bool is_new = now_ns && *now_ns != told_time_ns_;
+  if (is_new) told_time_ns_ = *now_ns;
+  const auto state = state_of(context_.playback());
   const std::lock_guard lock(mutex_);
-  for (ClientSession* session : sessions_) session->tell_time(*now_ns);
+  for (ClientSession* session : sessions_) {
+    if (is_new) session->tell_time(*now_ns);
+    if (state) session->tell_playback(*state, false);
+  }
+}
+
+void View::tell_playback(const PlaybackState& state, const ClientSession* by) {
+  const std::lock_guard lock(mutex_);
+  for (ClientSession* session : sessions_) {
+    if (session != by) session->tell_playback(state, true);
+  }
 }
 
 runtime::DiagnosticValues View::diagnostics() const {

@@ -47,7 +47,7 @@ class View {
   /// Looks for new topics, services and links and for those that are gone, and tells the clients. Does nothing without
   /// a client.
   void refresh();
-  /// Tells the clients the time, if it is not that of the system: of a recording or a simulation.
+  /// Tells the clients the time, if it is not that of the system: of a recording or a simulation; and how it is played.
   void tell_time();
   /// For /diagnostics.
   runtime::DiagnosticValues diagnostics() const;
@@ -56,6 +56,10 @@ class View {
   /// The time of a recording or a simulation; nullopt: that of the system.
   std::optional<std::int64_t> time_ns() const;
   const Settings& settings() const { return settings_; }
+  /// Of the player of this process.
+  runtime::Playback& playback() { return context_.playback(); }
+  /// Tells the other clients that `by` has moved what is played.
+  void tell_playback(const PlaybackState& state, const ClientSession* by);
   /// Identifies this run, so that a client that comes back knows whether ids still mean the same.
   const std::string& session() const { return session_; }
   const runtime::Logger& log() const { return context_.log(); }

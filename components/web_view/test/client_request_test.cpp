@@ -55,6 +55,21 @@ TEST(ClientRequest, ReadsWhatAClientPublishes) {
   EXPECT_THAT(publish.payload, testing::ElementsAre(0, 1, 9));
 }
 
+TEST(ClientRequest, ReadsCommandsToAPlayer) {
+  constexpr std::array<std::uint8_t, 21> kFrame{3, 1, 0, 0, 0x20, 0x40, 1, 2, 1, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 'a', 'b'};
+  const auto moved = std::get<ControlPlayback>(parse_binary(kFrame));
+  EXPECT_FALSE(moved.is_to_play);
+  EXPECT_EQ(moved.speed, 2.5);
+  EXPECT_EQ(moved.seek_ns, 258);
+  EXPECT_EQ(moved.id, "ab");
+  constexpr std::array<std::uint8_t, 19> kPlay{3, 0, 0, 0, 0x80, 0x3f, 0, 2, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  const auto played = std::get<ControlPlayback>(parse_binary(kPlay));
+  EXPECT_TRUE(played.is_to_play);
+  EXPECT_EQ(played.speed, 1);
+  EXPECT_FALSE(played.seek_ns);
+  EXPECT_EQ(played.id, "");
+}
+
 TEST(ClientRequest, RefusesTextsThatAreNoRequest) {
   EXPECT_EQ(refusal(""), "a text message is not JSON");
   EXPECT_EQ(refusal("{\"op\":\"subscribe\""), "a text message is not JSON");
@@ -83,6 +98,10 @@ TEST(ClientRequest, RefusesBinaryRubbish) {
   EXPECT_THROW(parse({}), ProtocolError);
   EXPECT_THROW(parse({1, 2, 0, 0}), ProtocolError);
   EXPECT_THROW(parse({9, 0, 0, 0, 0}), ProtocolError);
+  EXPECT_THROW(parse({3, 0, 0, 0, 0}), ProtocolError);                                             // cut off
+  EXPECT_THROW(parse({3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}), ProtocolError);       // without its id
+  EXPECT_THROW(parse({3, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), ProtocolError);       // command 2
+  EXPECT_THROW(parse({3, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0x80, 0, 0, 0, 0}), ProtocolError);  // in the year 2262
 }
 
 }  // namespace

@@ -14,12 +14,15 @@ namespace {
 using nlohmann::json;
 
 TEST(ServerMessage, PresentsTheServer) {
-  EXPECT_EQ(json::parse(server_info("panvo", {"clientPublish"}, "12")), json::parse(R"({
+  EXPECT_EQ(json::parse(server_info("panvo", {"clientPublish"}, "12", {})), json::parse(R"({
     "op": "serverInfo", "name": "panvo", "capabilities": ["clientPublish"], "supportedEncodings": ["cdr"],
     "metadata": {"ROS_DISTRO": "jazzy"}, "sessionId": "12"})"));
-  const json reading_only = json::parse(server_info("panvo", {}, ""));
+  const json reading_only = json::parse(server_info("panvo", {}, "", {}));
   EXPECT_EQ(reading_only["capabilities"], json::array());
   EXPECT_EQ(reading_only["metadata"], json::object());
+  const json playing = json::parse(server_info("panvo", {}, "", runtime::StampRange{2'000'000'003, 4'500'000'000}));
+  EXPECT_EQ(playing["dataStartTime"], json::parse(R"({"sec": 2, "nsec": 3})"));
+  EXPECT_EQ(playing["dataEndTime"], json::parse(R"({"sec": 4, "nsec": 500000000})"));
 }
 
 TEST(ServerMessage, OffersChannels) {
@@ -76,6 +79,8 @@ TEST(ServerMessage, WritesBinaryAnswersInLittleEndian) {
   using testing::ElementsAre;
   EXPECT_THAT(service_response_head(1, 2), ElementsAre(3, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r'));
   EXPECT_THAT(time_frame(0x0102), ElementsAre(2, 2, 1, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(playback_frame({PlaybackStatus::kEnded, 0x0102, 2.5}, true, "ab"),
+              ElementsAre(5, 3, 2, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0x20, 0x40, 1, 2, 0, 0, 0, 'a', 'b'));
   EXPECT_THAT(asset_frame(9, "ab"), ElementsAre(4, 9, 0, 0, 0, 0, 0, 0, 0, 0, 'a', 'b'));
   EXPECT_THAT(asset_failure(9, "no"), ElementsAre(4, 9, 0, 0, 0, 1, 2, 0, 0, 0, 'n', 'o'));
 }

@@ -90,6 +90,7 @@ export class App {
         this.connection.connecting();
         break;
       case "open":
+        this.#player.range_s = happening.range_s;
         this.#onOpen(happening.server, happening.capabilities);
         break;
       case "lost":

@@ -6,6 +6,11 @@
 
 namespace panvo::runtime {
 
+/// First and last stamp of recorded data, ns.
+struct StampRange {
+  std::int64_t first_ns, last_ns;
+};
+
 /// A component that plays recorded data. Live, the runtime calls it on its own thread, paced by the stamps (at the
 /// recorded rate, scaled, or as fast as the consumers allow). In replay, the source with the earliest stamp steps when
 /// all queues are empty. Calls never overlap.
@@ -26,8 +31,14 @@ class Source {
   };
   virtual Progress progress() const = 0;
 
-  /// Whether, live, the source waits at its end until it is moved back, see Playback::move_to. Otherwise the run ends.
+  /// Whether, live, the source waits at its end until it is moved back, see seek(). Otherwise the run ends.
   virtual bool waits_at_end() const { return false; }
+
+  /// What seek() accepts; nullopt: the source cannot be moved.
+  virtual std::optional<StampRange> range() const { return std::nullopt; }
+
+  /// Live: the next step is the first one not stamped before `stamp_ns`. Called from any thread.
+  virtual void seek(std::int64_t stamp_ns) { static_cast<void>(stamp_ns); }
 };
 
 /// How the sources of this process are played, live. Changes have no effect in replay. Thread-safe.
@@ -43,8 +54,10 @@ class Playback {
   virtual std::optional<std::int64_t> stamp_ns() const = 0;
   /// False if the present rate or `rate` is 0.
   virtual bool set_rate(double rate) = 0;
-  /// Call after a source has moved: what is stamped so is due now. The source is asked for its next stamp again.
-  virtual void move_to(std::int64_t stamp_ns) = 0;
+  /// Of all sources that can be moved; nullopt in replay, or if none can.
+  virtual std::optional<StampRange> range() const = 0;
+  /// Moves these sources to a stamp, limited to range(), which is due now. False if there is none.
+  virtual bool seek(std::int64_t stamp_ns) = 0;
 };
 
 }  // namespace panvo::runtime

@@ -47,4 +47,7 @@ struct RectifiedStereo {
 /// size, the baseline (negative if left and right are swapped) and the rotation matrices.
 std::vector<std::string> validate(const RectifiedStereo& stereo);
 
+/// Throws std::invalid_argument with each problem that validate() finds.
+void expect_valid(const RectifiedStereo& stereo);
+
 }  // namespace panvo::vision

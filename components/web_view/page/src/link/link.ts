@@ -9,7 +9,7 @@ import { matchesOf } from "../model/matches.ts";
 import type { PointCloud } from "../model/point_cloud.ts";
 import { publishable } from "./initial_pose.ts";
 import { Requests } from "./requests.ts";
-import { parseBinary, parseText, publishFrame, subprotocols, type ServerText } from "./wire.ts";
+import { parseBinary, parseText, playedRange, publishFrame, subprotocols, type ServerText } from "./wire.ts";
 
 const batch_ms = 5;
 
@@ -125,7 +125,7 @@ export class Link {
       case "serverInfo":
         this.#backOff.reset();
         this.#attempt = 0;
-        this.surroundings.emit({ kind: "open", server: message.name, capabilities: message.capabilities });
+        this.surroundings.emit({ kind: "open", server: message.name, capabilities: message.capabilities, ...playedRange(message) });
         break;
       case "advertise":
         this.#channels.offer(message.channels);

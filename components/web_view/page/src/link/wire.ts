@@ -34,8 +34,13 @@ export interface Parameter {
   type?: string;
 }
 
+export interface Time {
+  sec: number;
+  nsec: number;
+}
+
 export type ServerText =
-  | { op: "serverInfo"; name: string; capabilities: string[]; sessionId?: string }
+  | { op: "serverInfo"; name: string; capabilities: string[]; sessionId?: string; dataStartTime?: Time; dataEndTime?: Time }
   | { op: "status"; level: number; message: string }
   | { op: "advertise"; channels: Channel[] }
   | { op: "unadvertise"; channelIds: number[] }
@@ -43,6 +48,13 @@ export type ServerText =
   | { op: "unadvertiseServices"; serviceIds: number[] }
   | { op: "parameterValues"; parameters: Parameter[]; id?: string }
   | { op: "serviceCallFailure"; serviceId: number; callId: number; message: string };
+
+const seconds = ({ sec, nsec }: Time): number => sec + nsec * 1e-9;
+
+/** First and last time of what the server plays, if it tells. */
+export function playedRange({ dataStartTime: first, dataEndTime: last }: { dataStartTime?: Time; dataEndTime?: Time }): { range_s?: [number, number] } {
+  return first && last ? { range_s: [seconds(first), seconds(last)] } : {};
+}
 
 /** Undefined: not a message of the protocol. Operations that are not in ServerText are returned too, and ignored by users. */
 export function parseText(text: string): ServerText | undefined {

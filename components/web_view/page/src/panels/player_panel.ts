@@ -16,9 +16,10 @@ const icon = (path: string) => {
 
 export class PlayerPanel {
   isPaused = false;
+  range_s: [number, number] | undefined; // of the whole bag; before offer()
   rate = 1;
   #time_s: number | undefined; // of the recording
-  #first_s = Infinity; // range of the times received, which the slider spans
+  #first_s = Infinity; // what the slider spans: the whole, if the server tells, and the times received
   #last_s = -Infinity;
   #told_s: number | undefined; // the newest
   #asked_s: number | undefined; // the bag is being moved there
@@ -82,7 +83,7 @@ export class PlayerPanel {
     if (node === this.#node) return;
     this.#node = node;
     this.isPaused = false;
-    [this.#first_s, this.#last_s] = [Infinity, -Infinity];
+    [this.#first_s, this.#last_s] = this.range_s ?? [Infinity, -Infinity];
     void this.#refresh();
   }
 
@@ -103,6 +104,7 @@ export class PlayerPanel {
 
   async #moveTo(to: number): Promise<void> {
     if (this.#node === undefined) return;
+    if (this.range_s) to = Math.min(Math.max(to, this.range_s[0]), this.range_s[1]);
     this.#moved_ms = performance.now();
     this.#told_s = undefined;
     setTimeout(() => (this.time_s = this.#told_s), settled_ms + 1); // while paused, the server sends its time only once

@@ -81,3 +81,18 @@ for (const [name, width, height] of [["computer", 1280, 800], ["phone", 390, 844
     await page.close();
   });
 }
+
+test("the slider spans the whole bag if the server tells its range, and nothing is asked for beyond", async () => {
+  const page = await opened(1280, 800);
+  await page.evaluate(() => panvo.on({ kind: "open", server: "panvo", capabilities: ["services"], range_s: [50, 150] }));
+  await page.evaluate(actAsPlayer);
+  await page.waitForFunction(() => document.querySelector("#player input")!.getAttribute("aria-valuetext") === "0:50 of 1:40", { polling: 100 });
+  await page.focus('#player [aria-label="Position in what was played"]');
+  await page.keyboard.press("End");
+  await page.waitForFunction(() => player.asked.at(-1) === "seek 150", { polling: 100 });
+  await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+  await page.keyboard.press(".");
+  await page.waitForFunction(() => player.asked.length === 2, { polling: 100 });
+  assert.equal(await page.evaluate(() => player.asked.at(-1)), "seek 150");
+  await page.close();
+});

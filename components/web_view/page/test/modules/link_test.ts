@@ -102,6 +102,13 @@ test("topics without a usable definition are counted, not subscribed to", () => 
   assert.deepEqual(traffic.unknown.map(({ topic }) => topic), ["/landmarks", "/correction/outcome"]);
 });
 
+test("the range of what is played is told with the server", () => {
+  const { socket, happenings } = started();
+  socket.say({ op: "serverInfo", name: "panvo", capabilities: [], dataStartTime: { sec: 10, nsec: 500_000_000 }, dataEndTime: { sec: 90, nsec: 0 } });
+  const ranges = happenings.filter(({ kind }) => kind === "open").map((one) => (one as { range_s?: [number, number] }).range_s);
+  assert.deepEqual(ranges, [undefined, [10.5, 90]]);
+});
+
 test("a lost server is retried with growing delays until it answers", () => {
   const { sockets, timers, happenings } = started();
   for (let i = 0; i < 3; ++i) {

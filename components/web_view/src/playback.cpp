@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "playback.hpp"
+
+#include "protocol_error.hpp"
+
+namespace panvo::web_view {
+
+std::optional<PlaybackState> state_of(const runtime::Playback& playback) {
+  const auto range = playback.range();
+  if (!range) return std::nullopt;
+  const std::int64_t time_ns = playback.stamp_ns().value_or(range->first_ns);
+  const auto status = playback.is_paused()         ? PlaybackStatus::kPaused
+                      : time_ns >= range->last_ns ? PlaybackStatus::kEnded
+                                                   : PlaybackStatus::kPlaying;
+  return PlaybackState{status, time_ns, playback.rate()};
+}
+
+void control(runtime::Playback& playback, const ControlPlayback& request) {
+  if (!playback.range()) throw ProtocolError("nothing that can be moved is played here");
+  if (request.speed != playback.rate()) playback.set_rate(request.speed);
+  if (request.seek_ns) playback.seek(*request.seek_ns);
+  request.is_to_play ? playback.resume() : playback.pause();
+}
+
+}  // namespace panvo::web_view
