@@ -111,6 +111,7 @@ void Pacer::move_to(std::int64_t stamp_ns) {
     state_.since_ns = clocks::monotonic_ns();
     ++state_.version;
     reached_ns_ = stamp_ns;  // while paused, no step updates it
+    is_at_end_ = false;
   }
   tell(true);
 }

@@ -40,6 +40,9 @@ class Pacer final : public Playback {
   /// A source steps.
   void reach(std::int64_t stamp_ns) { reached_ns_ = stamp_ns; }
 
+  /// Whether all sources have reached their end.
+  void set_at_end(bool is_at_end) { is_at_end_ = is_at_end; }
+
   State state() const;
 
   void pause() override { set_paused(true); }
@@ -47,6 +50,7 @@ class Pacer final : public Playback {
   bool is_paused() const override { return state().is_paused; }
   std::optional<std::int64_t> stamp_ns() const override;
   double rate() const override { return state().rate; }
+  bool is_at_end() const override { return is_at_end_; }
   bool set_rate(double rate) override;
   std::optional<StampRange> range() const override;
   bool seek(std::int64_t stamp_ns) override;
@@ -65,6 +69,7 @@ class Pacer final : public Playback {
   mutable std::mutex mutex_;
   State state_;
   std::atomic<std::int64_t> reached_ns_ = kNever;
+  std::atomic<bool> is_at_end_ = false;
   mutable std::mutex sources_mutex_;
   std::vector<Source*> sources_;
   std::mutex telling_mutex_;

@@ -50,7 +50,7 @@ void SourceRunner::play(std::size_t index) {
   }
   {
     const std::lock_guard lock(mutex_);
-    next_stamp_ns_[index] = kAtEnd;
+    set_next(index, kAtEnd);
     --playing_;
   }
   changed_.notify_all();
@@ -58,7 +58,7 @@ void SourceRunner::play(std::size_t index) {
 
 SourceRunner::Turn SourceRunner::wait_for_turn(std::size_t index, std::int64_t stamp_ns, std::uint64_t version) {
   std::unique_lock lock(mutex_);
-  next_stamp_ns_[index] = stamp_ns;
+  set_next(index, stamp_ns);
   changed_.notify_all();  // another source may be waiting for this one
   while (!stopping_) {
     const auto pace = pacer_.state();
@@ -67,6 +67,12 @@ SourceRunner::Turn SourceRunner::wait_for_turn(std::size_t index, std::int64_t s
     wait_for_change(lock, stamp_ns, pace);
   }
   return Turn::kStop;
+}
+
+/// Requires mutex_.
+void SourceRunner::set_next(std::size_t index, std::int64_t stamp_ns) {
+  next_stamp_ns_[index] = stamp_ns;
+  pacer_.set_at_end(std::ranges::all_of(next_stamp_ns_, [](std::int64_t next_ns) { return next_ns == kAtEnd; }));
 }
 
 /// Requires mutex_.

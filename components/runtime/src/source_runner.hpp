@@ -48,6 +48,7 @@ class SourceRunner {
   enum class Turn { kStep, kAskAgain, kStop };
   /// `stamp_ns`: of the source's next step, asked for at that version of the pace.
   Turn wait_for_turn(std::size_t index, std::int64_t stamp_ns, std::uint64_t version);
+  void set_next(std::size_t index, std::int64_t stamp_ns);
   bool is_due(std::int64_t stamp_ns, const Pacer::State& pace) const;
   void wait_for_change(std::unique_lock<std::mutex>& lock, std::int64_t stamp_ns, const Pacer::State& pace);
 

@@ -8,11 +8,10 @@ namespace panvo::web_view {
 std::optional<PlaybackState> state_of(const runtime::Playback& playback) {
   const auto range = playback.range();
   if (!range) return std::nullopt;
-  const std::int64_t time_ns = playback.stamp_ns().value_or(range->first_ns);
-  const auto status = playback.is_paused()         ? PlaybackStatus::kPaused
-                      : time_ns >= range->last_ns ? PlaybackStatus::kEnded
-                                                   : PlaybackStatus::kPlaying;
-  return PlaybackState{status, time_ns, playback.rate()};
+  const auto status = playback.is_paused()   ? PlaybackStatus::kPaused
+                      : playback.is_at_end() ? PlaybackStatus::kEnded
+                                             : PlaybackStatus::kPlaying;
+  return PlaybackState{status, playback.stamp_ns().value_or(range->first_ns), playback.rate()};
 }
 
 void control(runtime::Playback& playback, const ControlPlayback& request) {

@@ -148,7 +148,11 @@ TEST_F(WebViewPlayback, TellsItsClientsWhatOthersDo) {
   EXPECT_TRUE(moved.is_moved);
   EXPECT_EQ(moved.id, "");
   playback_->resume();
-  EXPECT_EQ(next_told(one).status, 3) << "the end";
+  auto last = next_told(one);
+  if (last.status == 0) last = next_told(one);  // the last step is still to come
+  EXPECT_EQ(last.status, 3) << "the end";
+  send(one, {true, 1, kFirst, "again"});
+  EXPECT_EQ(next_told(one).status, 0);
 }
 
 TEST_F(WebViewPlayback, IsNotControlledWithoutPermission) {

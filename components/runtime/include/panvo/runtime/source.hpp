@@ -52,6 +52,8 @@ class Playback {
   virtual double rate() const = 0;
   /// Stamp of the newest step, also in replay; nullopt: nothing is played.
   virtual std::optional<std::int64_t> stamp_ns() const = 0;
+  /// Whether all sources have reached their end, live.
+  virtual bool is_at_end() const = 0;
   /// False if the present rate or `rate` is 0.
   virtual bool set_rate(double rate) = 0;
   /// Of all sources that can be moved; nullopt in replay, or if none can.
