@@ -238,7 +238,7 @@ TEST_P(LocalizerWithOtherClock, FindsTheOffset) {
   EXPECT_LT(localizer.panorama_clock().variance_s2(), 0.006 * 0.006);
   const double error_rad = yaw_of(localizer.latest().map_from_base.linear()) - Winding::yaw(119.96);
   EXPECT_LT(std::abs(error_rad), 0.005);
-  const auto& built = localizer.landmarks().at(0).map_from_base;
+  const Eigen::Isometry3d built = localizer.landmarks().at(0).map_from_base;
   EXPECT_NEAR(built.translation().x(), Winding::kSpeed * (kBuilt_s - 100.0), 0.02) << "before the offset was known";
 }
 
@@ -260,7 +260,7 @@ TEST(LocalizerWithCompass, BelievesNoTurnOfAnotherTimeWhenTheClockIsSetOnTheWay)
     EXPECT_NEAR(set.localizer.panorama_clock().estimate_s(), ahead_s, 0.003);
     const double error_rad = yaw_of(set.localizer.latest().map_from_base.linear()) - Winding::yaw(135.96);
     EXPECT_LT(std::abs(error_rad), 0.01);
-    const auto& built = set.localizer.landmarks().at(0).map_from_base;
+    const Eigen::Isometry3d built = set.localizer.landmarks().at(0).map_from_base;
     EXPECT_NEAR(built.translation().x(), Winding::kSpeed * (kBuilt_s - 100.0), 0.05) << "before the clock was set";
   }
 }

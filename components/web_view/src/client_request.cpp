@@ -167,7 +167,8 @@ ControlPlayback control_of(std::span<const std::uint8_t> bytes) {
     throw ProtocolError("a time to seek is out of range");
   const auto id = bytes.subspan(kId, read_u32(bytes.subspan(kIdLength)));
   if (id.size() > kMaxNameLength) throw ProtocolError("an id is longer than 1000 bytes");
-  return {bytes[0] == kPlay, std::bit_cast<float>(read_u32(bytes.subspan(kSpeed))),
+  return {bytes[0] == kPlay,
+          std::bit_cast<float>(read_u32(bytes.subspan(kSpeed))),
           moves ? std::optional(static_cast<std::int64_t>(time_ns)) : std::nullopt,
           {id.begin(), id.end()}};
 }

@@ -74,8 +74,9 @@ struct ControlPlayback {
   std::string id;  ///< to be repeated in the answer
 };
 
-using ClientRequest = std::variant<Subscribe, Unsubscribe, Advertise, Unadvertise, Publish, GetParameters,
-                                   SetParameters, WatchParameters, CallService, WatchConnectionGraph, FetchAsset, ControlPlayback>;
+using ClientRequest =
+    std::variant<Subscribe, Unsubscribe, Advertise, Unadvertise, Publish, GetParameters, SetParameters, WatchParameters,
+                 CallService, WatchConnectionGraph, FetchAsset, ControlPlayback>;
 
 /// Reads a text frame. Throws ProtocolError.
 ClientRequest parse_text(std::string_view frame);

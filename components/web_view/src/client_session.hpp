@@ -95,7 +95,7 @@ class ClientSession final : public WebServer::Session {
   std::atomic<bool> has_time_{false};
   std::uint64_t told_drops_ = 0;
   std::chrono::steady_clock::time_point drops_told_at_{};
-  mutable std::mutex mutex_;  // guards the next seven; not held while a topic is opened or closed
+  mutable std::mutex mutex_;                    // guards the next seven; not held while a topic is opened or closed
   std::optional<PlaybackState> told_playback_;  // of a client that controls it
   bool wants_graph_ = false;
   ConnectionGraph told_graph_;

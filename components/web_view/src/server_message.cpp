@@ -81,12 +81,9 @@ std::string server_info(std::string_view name, const std::vector<std::string>& c
   // complains if those of Jazzy have more constants; a client that may only read is spared this.
   json metadata = json::object();
   if (std::ranges::find(capabilities, "clientPublish") != capabilities.end()) metadata["ROS_DISTRO"] = kRosDistro;
-  json info{{"op", "serverInfo"},
-            {"name", name},
-            {"capabilities", capabilities},
-            {"supportedEncodings", {kEncoding}},
-            {"metadata", metadata},
-            {"sessionId", session}};
+  json info{{"op", "serverInfo"},           {"name", name},
+            {"capabilities", capabilities}, {"supportedEncodings", {kEncoding}},
+            {"metadata", metadata},         {"sessionId", session}};
   if (range) {
     info["dataStartTime"] = time_of(range->first_ns);
     info["dataEndTime"] = time_of(range->last_ns);

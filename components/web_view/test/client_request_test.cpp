@@ -56,7 +56,8 @@ TEST(ClientRequest, ReadsWhatAClientPublishes) {
 }
 
 TEST(ClientRequest, ReadsCommandsToAPlayer) {
-  constexpr std::array<std::uint8_t, 21> kFrame{3, 1, 0, 0, 0x20, 0x40, 1, 2, 1, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 'a', 'b'};
+  constexpr std::array<std::uint8_t, 21> kFrame{3, 1, 0, 0, 0x20, 0x40, 1, 2, 1,   0,  0,
+                                                0, 0, 0, 0, 2,    0,    0, 0, 'a', 'b'};
   const auto moved = std::get<ControlPlayback>(parse_binary(kFrame));
   EXPECT_FALSE(moved.is_to_play);
   EXPECT_EQ(moved.speed, 2.5);
@@ -98,9 +99,9 @@ TEST(ClientRequest, RefusesBinaryRubbish) {
   EXPECT_THROW(parse({}), ProtocolError);
   EXPECT_THROW(parse({1, 2, 0, 0}), ProtocolError);
   EXPECT_THROW(parse({9, 0, 0, 0, 0}), ProtocolError);
-  EXPECT_THROW(parse({3, 0, 0, 0, 0}), ProtocolError);                                             // cut off
-  EXPECT_THROW(parse({3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}), ProtocolError);       // without its id
-  EXPECT_THROW(parse({3, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), ProtocolError);       // command 2
+  EXPECT_THROW(parse({3, 0, 0, 0, 0}), ProtocolError);                                               // cut off
+  EXPECT_THROW(parse({3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}), ProtocolError);     // without its id
+  EXPECT_THROW(parse({3, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), ProtocolError);     // command 2
   EXPECT_THROW(parse({3, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0x80, 0, 0, 0, 0}), ProtocolError);  // in the year 2262
 }
 

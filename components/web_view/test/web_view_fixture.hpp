@@ -51,8 +51,7 @@ class WebView : public ::testing::Test {
  protected:
   void start(std::map<std::string, std::string> parameters = {}) {
     container_.emplace(runtime::ContainerOptions{
-        .rate = 1,
-        .log = [this](runtime::LogLevel, const std::string&, const std::string& text) { take_log(text); }});
+        .rate = 1, .log = [this](runtime::LogLevel, const std::string&, const std::string& text) { take_log(text); }});
     container_->add(description("camera"), [this](runtime::Context& context) {
       odometry_.emplace(context.output(topics::kOdometryBinocular));
       images_.emplace(context.output(topics::kPanorama));

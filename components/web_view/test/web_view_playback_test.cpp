@@ -78,8 +78,10 @@ Told next_told(WebSocketClient& client) {
       return value;
     };
     EXPECT_EQ(number(15, 4), frame->data.size() - 19);
-    return {frame->data.at(1), static_cast<std::int64_t>(number(2, 8)),
-            std::bit_cast<float>(static_cast<std::uint32_t>(number(10, 4))), frame->data.at(14) != 0,
+    return {frame->data.at(1),
+            static_cast<std::int64_t>(number(2, 8)),
+            std::bit_cast<float>(static_cast<std::uint32_t>(number(10, 4))),
+            frame->data.at(14) != 0,
             {frame->data.begin() + 19, frame->data.end()}};
   }
   return {};
