@@ -16,9 +16,10 @@ std::optional<PlaybackState> state_of(const runtime::Playback& playback) {
 
 void control(runtime::Playback& playback, const ControlPlayback& request) {
   if (!playback.range()) throw ProtocolError("nothing that can be moved is played here");
+  if (!request.is_to_play) playback.pause();  // first, so that nothing is played from the new position
   if (request.speed != playback.rate()) playback.set_rate(request.speed);
   if (request.seek_ns) playback.seek(*request.seek_ns);
-  request.is_to_play ? playback.resume() : playback.pause();
+  if (request.is_to_play) playback.resume();
 }
 
 }  // namespace panvo::web_view

@@ -19,7 +19,7 @@ export class PlayerPanel {
   range_s: [number, number] | undefined; // of the whole bag; before offer()
   rate = 1;
   #time_s: number | undefined; // of the recording
-  #first_s = Infinity; // what the slider spans: the whole, if the server tells, and the times received
+  #first_s = Infinity; // range of the slider: the whole bag, if known, and the times received
   #last_s = -Infinity;
   #told_s: number | undefined; // the newest
   #asked_s: number | undefined; // the bag is being moved there

@@ -82,7 +82,7 @@ for (const [name, width, height] of [["computer", 1280, 800], ["phone", 390, 844
   });
 }
 
-test("the slider spans the whole bag if the server tells its range, and nothing is asked for beyond", async () => {
+test("the slider spans the whole bag if its time range is known, and seeks stay within it", async () => {
   const page = await opened(1280, 800);
   await page.evaluate(() => panvo.on({ kind: "open", server: "panvo", capabilities: ["services"], range_s: [50, 150] }));
   await page.evaluate(actAsPlayer);

@@ -102,7 +102,7 @@ test("topics without a usable definition are counted, not subscribed to", () => 
   assert.deepEqual(traffic.unknown.map(({ topic }) => topic), ["/landmarks", "/correction/outcome"]);
 });
 
-test("the range of what is played is told with the server", () => {
+test("the time range of the recording comes from serverInfo", () => {
   const { socket, happenings } = started();
   socket.say({ op: "serverInfo", name: "panvo", capabilities: [], dataStartTime: { sec: 10, nsec: 500_000_000 }, dataEndTime: { sec: 90, nsec: 0 } });
   const ranges = happenings.filter(({ kind }) => kind === "open").map((one) => (one as { range_s?: [number, number] }).range_s);
