@@ -33,7 +33,7 @@ constexpr int kDecisionsPerCall = 3;  // 20 ms each with the most sightings
 
 Fleet::Fleet(const FleetParameters& parameters, std::string robot, const landmarks::KeypointParameters& keypoints,
              const landmarks::PanoramaDescriber& describer, landmarks::DescriptionSettings settings,
-             std::shared_ptr<const landmarks::KeypointSource> own_keypoints, vision::StageObserver* observer)
+             std::shared_ptr<const landmarks::LandmarkSource> own_keypoints, vision::StageObserver* observer)
     : parameters_(parameters),
       robot_(std::move(robot)),
       settings_(std::move(settings)),

@@ -20,7 +20,7 @@
 #include "panvo/interfaces/fleet_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
-#include "panvo/position_corrector/spilled_keypoints.hpp"
+#include "panvo/position_corrector/spilled_landmarks.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/runtime/errors.hpp"
 
@@ -72,7 +72,7 @@ class FleetComponent final : public runtime::Component {
         describer_(parameters_.description, static_cast<std::uint64_t>(parameters_.description_seed)),
         settings_(landmarks::landmark_settings(parameters_.description, parameters_.keypoints,
                                                static_cast<std::uint64_t>(parameters_.description_seed))),
-        own_keypoints_(std::make_shared<position_corrector::SpilledKeypoints>(parameters_.spill_folder)),
+        own_keypoints_(std::make_shared<position_corrector::SpilledLandmarks>(parameters_.spill_folder)),
         fleet_({parameters_.sharing, parameters_.members, parameters_.recognition, parameters_.join}, parameters_.robot,
                parameters_.keypoints, describer_, settings_, own_keypoints_, &timer_),
         members_(context.output(topics::kFleetMembers)),
@@ -280,7 +280,7 @@ class FleetComponent final : public runtime::Component {
   conversions::StageTimer timer_;
   const landmarks::PanoramaDescriber describer_;
   const landmarks::DescriptionSettings settings_;
-  std::shared_ptr<position_corrector::SpilledKeypoints> own_keypoints_;
+  std::shared_ptr<position_corrector::SpilledLandmarks> own_keypoints_;
   Fleet fleet_;
   runtime::Output<panvo_msgs::msg::FleetMember> members_;
   runtime::Output<panvo_msgs::msg::FleetPlaces> places_;

@@ -20,9 +20,10 @@ using testing::Optional;
 
 constexpr int kPlaces = 6;
 
-class Keypoints final : public landmarks::KeypointSource {
+class Keypoints final : public landmarks::LandmarkSource {
  public:
   std::vector<landmarks::Keypoint> keypoints(std::uint32_t id) const override { return by_id.at(id); }
+  landmarks::PanoramaDescription description(std::uint32_t) const override { return {}; }
   std::map<std::uint32_t, std::vector<landmarks::Keypoint>> by_id;
 };
 

@@ -8,6 +8,7 @@
 #include <opencv2/core/hal/intrin.hpp>
 #include <vector>
 
+#include "feature_spread.hpp"
 #include "panvo/vision/equirectangular.hpp"
 #include "panvo/vision/intensity_histogram.hpp"
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr float kTruncation =
     1.0F;  // spreads: larger differences mean an occluded or displaced patch and are truncated
-constexpr float kMinFeatureSpread = 0.05F;
 constexpr float kMinMean = 0.01F;
 constexpr int kMeanHeadings = 12;
 constexpr double kMinimumReach_rad = 20.0 * std::numbers::pi / 180.0;  // of a minimum over the headings

@@ -36,7 +36,7 @@ bool fits(const PanoramaDescription& description, const DescriptionLimits& limit
          (!limits.bins || description.histogram.size() == *limits.bins);
 }
 
-LandmarkLibrary::LandmarkLibrary(std::shared_ptr<KeypointSource> source, DescriptionLimits limits)
+LandmarkLibrary::LandmarkLibrary(std::shared_ptr<const LandmarkSource> source, DescriptionLimits limits)
     : source_(std::move(source)), limits_(limits) {}
 
 std::uint32_t LandmarkLibrary::add(PanoramicLandmark landmark) {
@@ -51,7 +51,9 @@ std::uint32_t LandmarkLibrary::add(PanoramicLandmark landmark) {
   if (at < by_id_.size() && by_id_[at]->id == landmark.id) {
     throw std::invalid_argument("landmark " + std::to_string(landmark.id) + " is already in the library");
   }
+  index_.add(landmark.id, landmark.description);
   if (source_) {
+    landmark.description = PanoramaDescription();
     // swap() releases the memory; `= {}` would keep it
     std::vector<Keypoint>().swap(landmark.keypoints);
     std::vector<std::uint8_t>().swap(landmark.thumbnail);
@@ -123,6 +125,12 @@ std::vector<Keypoint> LandmarkLibrary::keypoints(std::uint32_t id) const {
   if (source_) return source_->keypoints(id);
   const auto* landmark = find(id);
   return landmark ? landmark->keypoints : std::vector<Keypoint>{};
+}
+
+PanoramaDescription LandmarkLibrary::description(std::uint32_t id) const {
+  if (source_) return source_->description(id);
+  const auto* landmark = find(id);
+  return landmark ? landmark->description : PanoramaDescription();
 }
 
 LandmarkLibrary::Cell LandmarkLibrary::cell_of(const Eigen::Vector3d& position) {

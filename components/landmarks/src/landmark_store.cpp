@@ -221,16 +221,21 @@ std::size_t LandmarkStore::become_copy_of(const LandmarkStore& other, bool repla
 
 std::size_t LandmarkStore::size() const { return backend_->size(); }
 
-std::vector<PanoramicLandmark> LandmarkStore::landmarks(const std::function<void(const std::string&)>& report) const {
-  std::vector<PanoramicLandmark> landmarks;
+void LandmarkStore::for_each(const std::function<void(PanoramicLandmark)>& visit,
+                             const std::function<void(const std::string&)>& report) const {
   backend_->for_each(StoreBackend::Parts::kDescription, [&](const StoredLandmark& row) {
     std::string problem;
     if (auto landmark = valid_landmark(row, settings_, problem)) {
-      landmarks.push_back(std::move(*landmark));
+      visit(std::move(*landmark));
     } else if (report) {
       report(problem);
     }
   });
+}
+
+std::vector<PanoramicLandmark> LandmarkStore::landmarks(const std::function<void(const std::string&)>& report) const {
+  std::vector<PanoramicLandmark> landmarks;
+  for_each([&](PanoramicLandmark landmark) { landmarks.push_back(std::move(landmark)); }, report);
   return landmarks;
 }
 

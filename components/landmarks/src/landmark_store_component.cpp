@@ -124,20 +124,20 @@ class LandmarkStoreComponent final : public runtime::Component {
       context_.log().warn("{}: {}: skipped. Remedy: run panvo landmarks info --check; restore a copy{}", store.name(),
                           problem, location_.is_server() ? "" : " of the file");
     };
-    for (auto& landmark : store.landmarks(tell)) {
+    const auto publish_one = [&](PanoramicLandmark landmark) {
       try {
         landmark.keypoints = store.keypoints(landmark.id);  // the thumbnail, for display only, is not published
       } catch (const StoreUnavailable&) {
         throw;
       } catch (const StoreError& error) {
-        tell(error.what());
-        continue;
+        return tell(error.what());
       }
       remember({landmark.id, landmark.map_from_base, landmark.covariance});
       earlier_[landmark.id] = uses_[landmark.id];
       // The topic is latched, so subscribers may join later.
       output_.publish(to_message(landmark, store.settings(), parameters_.map_frame));
-    }
+    };
+    store.for_each(publish_one, tell);
   }
 
   /// Places of a stereo camera are recognised at like headings only, so that a pass does not tell that one has changed.

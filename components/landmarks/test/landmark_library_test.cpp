@@ -156,23 +156,26 @@ TEST(LandmarkLibrary, HasNothingWithinWhatIsNoRadiusOrNoPosition) {
   EXPECT_FALSE(library.nearest({kInfinite, 0.0, 0.0}));
 }
 
-/// Returns keypoints that encode the landmark's id.
-class CountingSource final : public KeypointSource {
+/// Returns keypoints and descriptions that encode the landmark's id.
+class CountingSource final : public LandmarkSource {
  public:
   std::vector<Keypoint> keypoints(std::uint32_t id) const override {
     std::vector<Keypoint> keypoints(2);
     keypoints[0].size_px = static_cast<float>(id);
     return keypoints;
   }
+  PanoramaDescription description(std::uint32_t id) const override { return {{static_cast<float>(id)}, {}, {}}; }
 };
 
-TEST(LandmarkLibrary, KeepsKeypointsOnlyWhereItHasNoSource) {
+TEST(LandmarkLibrary, KeepsKeypointsAndDescriptionsOnlyWhereItHasNoSource) {
   const auto landmark = test::made_up_landmark(4, 10);
   LandmarkLibrary alone;
   alone.add(landmark);
   EXPECT_EQ(alone.keypoints(4), landmark.keypoints);
   EXPECT_EQ(alone.find(4)->thumbnail, landmark.thumbnail);
   EXPECT_THAT(alone.keypoints(5), IsEmpty());
+  EXPECT_EQ(alone.description(4), landmark.description);
+  EXPECT_EQ(alone.description(5), PanoramaDescription());
 
   LandmarkLibrary with_source(std::make_shared<CountingSource>());
   with_source.add(landmark);
@@ -181,7 +184,8 @@ TEST(LandmarkLibrary, KeepsKeypointsOnlyWhereItHasNoSource) {
   EXPECT_EQ(with_source.find(4)->keypoints.capacity() + with_source.find(4)->thumbnail.capacity(), 0U)
       << "memory must be released";
   EXPECT_EQ(with_source.keypoints(4).at(0).size_px, 4.0f);
-  EXPECT_EQ(with_source.find(4)->description, landmark.description);
+  EXPECT_EQ(with_source.find(4)->description, PanoramaDescription());
+  EXPECT_THAT(with_source.description(4).histogram, ElementsAre(4.0F));
 }
 
 }  // namespace

@@ -75,15 +75,6 @@ TEST_F(Store, IsContinuedByASecondSession) {
   EXPECT_EQ(LandmarkStore(file_).size(), 4u);
 }
 
-TEST_F(Store, FillsALibraryThatReadsKeypointsFromIt) {
-  write(4);
-  const auto store = std::make_shared<LandmarkStore>(file_);
-  LandmarkLibrary library(store);
-  for (auto& landmark : store->landmarks()) library.add(std::move(landmark));
-  EXPECT_EQ(library.next_id(), 5u);
-  EXPECT_EQ(library.keypoints(3), made_up_landmark(3).keypoints);
-}
-
 TEST_F(Store, MovesLandmarksAllOrNone) {
   write(3);
   LandmarkStore store(file_, made_up_settings());

@@ -59,8 +59,7 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
     match.reason = reason;
     return match;
   };
-  auto near = candidates(frame, library);
-  match.candidates = static_cast<int>(near.size());
+  auto near = candidates(frame, query, library, match);
   if (near.empty()) return ended("no landmark near the position");
   match.kept_after_histogram = keep_similar_histograms(query, near);
   if (near.empty()) return ended("no candidate has a similar histogram");
@@ -80,7 +79,7 @@ int LandmarkMatcher::keep_similar_histograms(const landmarks::QueryDescription& 
                                              std::vector<Candidate>& near) const {
   const vision::Stage stage(observer_, "histogram");
   for (auto& candidate : near) {
-    candidate.histogram_distance = histogram_distance(query, candidate.landmark->description);
+    candidate.histogram_distance = histogram_distance(query, candidate.description);
   }
   return keep(near, [&](const Candidate& candidate) {
     return candidate.histogram_distance <= parameters_.max_histogram_distance;
@@ -90,13 +89,13 @@ int LandmarkMatcher::keep_similar_histograms(const landmarks::QueryDescription& 
 int LandmarkMatcher::keep_similar_at_large_scale(const landmarks::QueryDescription& query,
                                                  std::vector<Candidate>& near) const {
   const vision::Stage stage(observer_, "large_scale");
-  for (auto& candidate : near) candidate.large = match_large_scale(query, candidate.landmark->description);
+  for (auto& candidate : near) candidate.large = match_large_scale(query, candidate.description);
   const int similar = keep(
       near, [&](const Candidate& candidate) { return candidate.large.distance <= parameters_.max_large_distance; });
   const auto most = std::min(near.size(), static_cast<std::size_t>(parameters_.max_verified));
   std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(most), near.end(),
                     [](const Candidate& a, const Candidate& b) {
-                      return std::pair(a.large.distance, a.landmark->id) < std::pair(b.large.distance, b.landmark->id);
+                      return std::pair(a.large.distance, a.id) < std::pair(b.large.distance, b.id);
                     });
   near.resize(most);
   return similar;
@@ -106,14 +105,14 @@ void LandmarkMatcher::sort_by_small_scale(const landmarks::QueryDescription& que
                                           std::vector<Candidate>& near) const {
   const vision::Stage stage(observer_, "small_scale");
   for (auto& candidate : near) {
-    candidate.small = search_heading(query, candidate.landmark->description, candidate.large.heading_rad);
+    candidate.small = search_heading(query, candidate.description, candidate.large.heading_rad);
   }
   std::stable_sort(near.begin(), near.end(),
                    [](const Candidate& a, const Candidate& b) { return a.small.distance < b.small.distance; });
 }
 
 void LandmarkMatcher::describe(const Candidate& candidate, LandmarkMatch& match) {
-  match.landmark_id = candidate.landmark->id;
+  match.landmark_id = candidate.id;
   match.heading_rad = candidate.small.heading_rad;
   match.histogram_distance = candidate.histogram_distance;
   match.large_distance = candidate.large.distance;
@@ -126,11 +125,11 @@ void LandmarkMatcher::verify(const PanoramaFrame& frame, const landmarks::Landma
   match.state = MatchState::kRejected;
   for (const auto& candidate : near) {
     const vision::Stage stage(observer_, "verify");
-    auto found = estimate_panorama_pose(keypoints, library.keypoints(candidate.landmark->id),
-                                        candidate.large.heading_rad, parameters_.pose);
+    auto found = estimate_panorama_pose(keypoints, library.keypoints(candidate.id), candidate.large.heading_rad,
+                                        parameters_.pose);
     if (!found.pose) {
       if (!match.reason.empty()) continue;  // the first candidate is the most similar one
-      match.reason = fmt::format("landmark {}: {}", candidate.landmark->id, found.reason);
+      match.reason = fmt::format("landmark {}: {}", candidate.id, found.reason);
       match.inliers = found.inliers;
       match.points = std::move(found.points);
       match.weak_pose = std::move(found.weak_pose);
@@ -156,15 +155,15 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
                                       const landmarks::LandmarkLibrary& library) {
   auto& lock = *lock_;
   LandmarkMatch match = lock.best;
-  const auto* landmark = library.find(lock.landmark_id);
-  if (landmark != nullptr) {
+  if (library.find(lock.landmark_id) != nullptr) {
     match.stamp_ns = frame.stamp_ns;
     match.pose.reset();
-    match.histogram_distance = histogram_distance(query, landmark->description);
-    match.large_distance = match_large_scale(query, landmark->description).distance;
+    const auto description = library.description(lock.landmark_id);
+    match.histogram_distance = histogram_distance(query, description);
+    match.large_distance = match_large_scale(query, description).distance;
     {
       const vision::Stage stage(observer_, "small_scale");
-      const auto small = search_heading(query, landmark->description, lock.heading_rad);
+      const auto small = search_heading(query, description, lock.heading_rad);
       match.small_distance = small.distance;
       match.heading_rad = small.heading_rad;
     }
@@ -208,25 +207,50 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
 }
 
 std::vector<LandmarkMatcher::Candidate> LandmarkMatcher::candidates(const PanoramaFrame& frame,
-                                                                    const landmarks::LandmarkLibrary& library) const {
-  std::vector<Candidate> found;
-  const auto add = [&](const landmarks::PanoramicLandmark* landmark) {
-    if (!is_left(landmark->id, frame.travelled_m)) return;
-    found.emplace_back().landmark = landmark;
+                                                                    const landmarks::QueryDescription& query,
+                                                                    const landmarks::LandmarkLibrary& library,
+                                                                    LandmarkMatch& match) const {
+  const vision::Stage stage(observer_, "candidates");
+  const std::set<std::uint32_t> here = not_left(frame.travelled_m);
+  const auto is_asked = [&](std::uint32_t id) { return !here.contains(id); };
+  const auto most = static_cast<std::size_t>(parameters_.max_compared);
+  std::vector<std::uint32_t> ids;
+  const auto take_most_similar = [&](const landmarks::LargeScaleIndex::Asked& asked) {
+    const auto ranking = library.rank(query, most, asked);
+    ids.clear();
+    for (const auto& similar : ranking.nearest) ids.push_back(similar.id);
+    std::ranges::sort(ids);
+    return ranking.asked;
   };
-  if (!frame.prior) {
-    for (const auto* landmark : library.all()) add(landmark);
-    return found;
+  if (!frame.prior && library.size() > most) {
+    match.candidates = static_cast<int>(take_most_similar(is_asked));
+  } else {
+    const auto radius_m = frame.prior ? parameters_.radius_m + parameters_.radius_sigmas * frame.prior->sigma_m
+                                      : std::numeric_limits<double>::infinity();
+    const auto near = library.within(frame.prior ? frame.prior->position : Eigen::Vector3d::Zero(), radius_m);
+    for (const auto* landmark : near) {
+      if (is_asked(landmark->id)) ids.push_back(landmark->id);
+    }
+    match.candidates = static_cast<int>(ids.size());
+    if (ids.size() > most) {
+      take_most_similar([near_ids = ids](std::uint32_t id) { return std::ranges::binary_search(near_ids, id); });
+    }
   }
-  const auto near =
-      library.within(frame.prior->position, parameters_.radius_m + parameters_.radius_sigmas * frame.prior->sigma_m);
-  for (const auto* landmark : near) add(landmark);
+  std::vector<Candidate> found;
+  for (const auto id : ids) {
+    auto& candidate = found.emplace_back();
+    candidate.id = id;
+    candidate.description = library.description(id);
+  }
   return found;
 }
 
-bool LandmarkMatcher::is_left(std::uint32_t id, double travelled_m) const {
-  const auto seen = seen_at_m_.find(id);
-  return seen == seen_at_m_.end() || travelled_m - seen->second >= parameters_.leave_m;
+std::set<std::uint32_t> LandmarkMatcher::not_left(double travelled_m) const {
+  std::set<std::uint32_t> ids;
+  for (const auto& [id, seen_at_m] : seen_at_m_) {
+    if (travelled_m - seen_at_m < parameters_.leave_m) ids.insert(id);
+  }
+  return ids;
 }
 
 std::vector<landmarks::Keypoint> LandmarkMatcher::keypoints_of(const cv::Mat& panorama) const {

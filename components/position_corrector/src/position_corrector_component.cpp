@@ -23,7 +23,7 @@
 #include "panvo/position_corrector/paper_correction.hpp"
 #include "panvo/position_corrector/point_messages.hpp"
 #include "panvo/position_corrector/position_correction.hpp"
-#include "panvo/position_corrector/spilled_keypoints.hpp"
+#include "panvo/position_corrector/spilled_landmarks.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/vision/panorama_watch.hpp"
 
@@ -73,7 +73,7 @@ struct ComponentParameters {
           "search only near the odometry position; false: always search the whole library");
     field(&P::base_frame, "base_frame", "", "vehicle frame; /tf_static gives the extrinsics of the panoramic camera");
     field.path(&P::spill_folder, "spill_folder",
-               "folder on a disk for an unnamed file of the landmarks' keypoints, 40 kB each; empty: keep in memory");
+               "folder on a disk for an unnamed file of the landmarks, 48 kB each; empty: keep in memory");
   }
 };
 
@@ -89,8 +89,8 @@ class PositionCorrectorComponent final : public runtime::Component {
         describer_(parameters_.description, static_cast<std::uint64_t>(parameters_.description_seed)),
         settings_(landmarks::landmark_settings(parameters_.description, parameters_.keypoints,
                                                static_cast<std::uint64_t>(parameters_.description_seed))),
-        keypoints_(std::make_shared<SpilledKeypoints>(parameters_.spill_folder)),
-        library_(keypoints_, describer_.basis().limits()),
+        stored_(std::make_shared<SpilledLandmarks>(parameters_.spill_folder)),
+        library_(stored_, describer_.basis().limits()),
         matcher_(parameters_.matching, parameters_.keypoints, describer_, &timer_),
         match_(context.output(topics::kLandmarkMatch)),
         correction_(context.output(topics::kCorrection)),
@@ -110,9 +110,9 @@ class PositionCorrectorComponent final : public runtime::Component {
     if (library_.set_pose(read->id, read->map_from_base, read->covariance)) return;
     auto landmark = *read;
     early_poses_.apply(landmark);
-    keypoints_->put(landmark.id, landmark.keypoints);
-    if (!keypoints_->problem().empty()) {
-      context_.log().warn_throttled("spill", "{}: keypoints of landmarks stay in memory", keypoints_->problem());
+    stored_->put(landmark.id, landmark.keypoints, landmark.description);
+    if (!stored_->problem().empty()) {
+      context_.log().warn_throttled("spill", "{}: landmarks stay in memory", stored_->problem());
     }
     try {
       matcher_.added(library_.add(std::move(landmark)));
@@ -226,7 +226,7 @@ class PositionCorrectorComponent final : public runtime::Component {
   conversions::StageTimer timer_;
   const landmarks::PanoramaDescriber describer_;
   const landmarks::DescriptionSettings settings_;
-  std::shared_ptr<SpilledKeypoints> keypoints_;
+  std::shared_ptr<SpilledLandmarks> stored_;
   landmarks::LandmarkLibrary library_;
   vision::PanoramaWatch watch_;
   LandmarkMatcher matcher_;

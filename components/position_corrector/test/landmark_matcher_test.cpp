@@ -52,6 +52,28 @@ TEST_F(LandmarkMatching, FindsAPlaceAtAnyHeading) {
   }
 }
 
+TEST_F(LandmarkMatching, ComparesOnlyTheMostSimilarOnesOfMany) {
+  MatchingParameters parameters;
+  parameters.max_compared = 2;
+  LandmarkMatcher exact({}, keypoints, describer), limited(parameters, keypoints, describer);
+  const cv::Mat view = turned(place(3), 333);
+  const auto match = limited.match({kPeriod_ns, view, 0.0, std::nullopt}, library);
+  const auto expected = exact.match({kPeriod_ns, view, 0.0, std::nullopt}, library);
+  ASSERT_EQ(match.state, MatchState::kLocked) << match.reason;
+  EXPECT_EQ(match.landmark_id, 3U);
+  EXPECT_EQ(match.large_distance, expected.large_distance);
+  EXPECT_EQ(match.heading_rad, expected.heading_rad);
+  EXPECT_EQ(match.candidates, 4);
+  EXPECT_EQ(match.kept_after_histogram, 2);
+
+  LandmarkMatcher near(parameters, keypoints, describer);  // three landmarks around a position
+  const PositionPrior prior{{200.0, 0.0, 0.0}, 30.0};
+  const auto nearby = near.match({kPeriod_ns, view, 0.0, prior}, library);
+  EXPECT_EQ(nearby.landmark_id, 3U);
+  EXPECT_EQ(nearby.candidates, 3);
+  EXPECT_EQ(nearby.kept_after_histogram, 2);
+}
+
 TEST_F(LandmarkMatching, TellsThePlaceOnceItIsPastAndNamesTheMostSimilarPanorama) {
   EXPECT_NE(pass(place(50)).state, MatchState::kLocked);
   cv::Mat nearly = place(2);

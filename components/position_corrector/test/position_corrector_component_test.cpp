@@ -232,14 +232,14 @@ TEST_F(CorrectorOnTopics, LooksWhereTheVehicleWasWhenALatePanoramaWasTaken) {
   EXPECT_EQ(matches.back()->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED) << matches.back()->reason();
 }
 
-TEST_F(CorrectorOnTopics, KeepsKeypointsInMemoryWhereThereIsNoFolderForThem) {
+TEST_F(CorrectorOnTopics, KeepsLandmarksInMemoryWhereThereIsNoFolderForThem) {
   runtime::ComponentHarness other;
   const auto& found = other.collect(topics::kLandmarkMatch);
   other.load("panvo_position_corrector", "PositionCorrectorComponent", {{"spill_folder", "/no/such/folder"}});
   auto landmark = landmark_of(place(2), describer, Eigen::Vector3d::Zero());
   landmark.id = 2;
   other.publish(topics::kLandmarks, to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map"));
-  EXPECT_TRUE(other.log_contains("keypoints of landmarks stay in memory"));
+  EXPECT_TRUE(other.log_contains("landmarks stay in memory"));
   auto message = conversions::make_image(kPeriod_ns, "panorama", "mono8", kColumns, kRows);
   place(2).copyTo(conversions::pixels(*message));
   other.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));

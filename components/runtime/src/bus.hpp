@@ -1,122 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
-#include <shared_mutex>
 #include <string>
 #include <vector>
 
-#include "panvo/runtime/bridge.hpp"
-#include "panvo/runtime/rejected_messages.hpp"
-#include "worker.hpp"
+#include "channel.hpp"
 
 namespace panvo::runtime {
-
-/// A topic within this process. Messages are passed by pointer to all local readers, and to the bridge, if any. Each
-/// message is validated once against the rules of its type, whatever its origin. Invalid messages are counted, reach
-/// only recorders and do not leave the process.
-class Channel {
- public:
-  /// Receives a message on the publisher's thread; must be fast.
-  using Reader = std::function<void(const TopicDescription&, const SamplePtr&)>;
-
-  /// kValid: valid messages only; kAll: every message as sent (recorders).
-  enum class Wants { kValid, kAll };
-
-  /// `clock` measures the age of latched messages, ns.
-  Channel(TopicDescription topic, Bridge* bridge, std::function<void(const std::string&)> warn,
-          std::function<std::int64_t()> clock, Limits limits = {});
-
-  const TopicDescription& topic() const noexcept { return topic_; }
-
-  /// `qos`: overrides that of the topic. Throws ConfigError if another publisher of this process has another one.
-  void add_publisher(const void* owner, const std::string& owner_name,
-                     const std::optional<interfaces::Qos>& qos = std::nullopt);
-  void remove_publisher(const void* owner);
-  bool has_publisher_other_than(const void* owner) const;
-  bool is_published_by(const std::string& owner_name) const;
-  bool is_read_by(const void* owner) const;
-
-  bool has_readers() const;
-  bool has_observers() const;
-
-  /// Passes latched messages and then all further messages to `reader`, until remove_reader() returns. `qos`: overrides
-  /// that of the topic. Throws ConfigError if another reader of this process requests another reliability or
-  /// durability; a reader of all messages takes what there is.
-  void add_reader(const void* owner, Reader reader, Wants wants = Wants::kValid,
-                  const std::optional<interfaces::Qos>& qos = std::nullopt);
-  void remove_reader(const void* owner);
-
-  /// Calls `observer` only for messages published in this process.
-  void add_observer(Reader observer);
-
-  void publish(const SamplePtr& sample);
-
-  bool wait_for_acknowledgments(std::chrono::milliseconds limit);
-  struct Counters {
-    std::uint64_t published = 0, not_sent = 0, lost = 0, overwritten = 0, too_large = 0, too_fast = 0;
-    std::size_t remote_readers = 0, remote_writers = 0;
-  };
-  Counters counters() const;
-  RejectedMessages::Count rejected() const;
-  /// Logs messages rejected since the last call, each reason at most once in 10 s. Deferred for topics of other
-  /// processes: deliver() may be called while Fast DDS holds locks, where the sender cannot be looked up.
-  void tell_rejected();
-
- private:
-  struct Member {
-    const void* owner;
-    Reader reader;
-    Wants wants;
-  };
-  struct Latched {
-    SamplePtr sample;
-    bool is_from_here;  // published in this process: expires with its publisher
-    std::int64_t since_ns;
-  };
-
-  bool is_to_be_checked(const Sample& sample) const;
-  bool is_rejected(const SamplePtr& sample);
-  void deliver(const SamplePtr& sample, bool is_valid, bool is_from_here);
-  std::string shown_sender(const std::string& sender) const;
-  TopicDescription with(const interfaces::Qos& qos) const;
-  void agree_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants);
-  void remember(const SamplePtr& sample, bool is_from_here);
-  bool is_old(const Latched& latched) const;
-
-  const TopicDescription topic_;
-  Bridge* const bridge_;
-  const std::function<void(const std::string&)> warn_;
-  const std::function<std::int64_t()> clock_;
-  const Limits limits_;
-
-  RejectedMessages rejections_;
-  std::mutex untold_mutex_;
-  std::vector<RejectedMessages::Cause> untold_;
-
-  mutable std::shared_mutex mutex_;  // shared: delivery; exclusive: changes of publishers and readers
-  std::map<const void*, std::string> publishers_;
-  std::vector<Member> readers_;
-  std::vector<Reader> observers_;
-  interfaces::Qos offered_, requested_;  // of publishers and readers of this process
-  std::unique_ptr<BridgeWriter> writer_;
-  std::mutex history_mutex_;
-  std::deque<Latched> history_;  // of a transient-local topic
-  std::atomic<std::uint64_t> published_ = 0, not_sent_ = 0;
-
-  // Opened with the first reader, closed after the last. Never under mutex_: closing waits for a callback that may be
-  // delivering.
-  mutable std::mutex bridge_reader_mutex_;
-  std::unique_ptr<BridgeReader> bridge_reader_;
-};
 
 /// The topics of a process.
 class Bus {
@@ -142,6 +38,8 @@ class Bus {
 
   /// Logs rejected messages of other processes. Call periodically.
   void tell_rejected();
+  /// See Channel::send_history.
+  void send_history();
 
   /// nullptr without a bridge.
   Bridge* bridge() const noexcept { return bridge_.get(); }

@@ -15,6 +15,7 @@ void Container::Implementation::keep_house() {
     lock.unlock();
     bus_.join_discovered();
     bus_.tell_rejected();
+    bus_.send_history();
     for (const std::uint64_t id : to_finalize) finalize(id);
     restart_failed();
     if (bus_.channels().size() != told_channels_) tell_nodes();  // a recorder has opened topics

@@ -16,13 +16,6 @@
 namespace panvo::runtime {
 namespace {
 
-/// Stamp of a message: from its header, or of the message processed when it was published.
-std::int64_t stamp_of(const Sample& sample) {
-  if (!sample.type()) return sample.time_ns();
-  const void* message = sample.message();
-  return message ? sample.type()->stamp_ns(message).value_or(sample.time_ns()) : sample.time_ns();
-}
-
 class ChannelOutput final : public UntypedOutput {
  public:
   ChannelOutput(Channel& channel, Host& host, std::shared_ptr<const void> library, const std::string& owner,
@@ -195,7 +188,7 @@ void Context::open_input(const TopicDescription& topic, std::function<void(const
         state_.get(),
         [state = state_.get(), &worker, &port](const TopicDescription& there, const SamplePtr& sample) {
           if (!state->active || !state->admits_stamp(there, *sample)) return;
-          worker.push(port, {.first = sample, .stamp_ns = stamp_of(*sample)});
+          worker.push(port, {.first = sample, .stamp_ns = sample->stamp_ns()});
         },
         Channel::Wants::kValid, qos);
   } catch (const ConfigError& error) {
@@ -223,7 +216,7 @@ void Context::open_input_pair(const TopicDescription& first, const TopicDescript
       channels[side]->add_reader(
           state_.get(),
           [state = state_.get(), pairing, side](const TopicDescription& there, const SamplePtr& sample) {
-            if (state->active && state->admits_stamp(there, *sample)) pairing->take(side, stamp_of(*sample), sample);
+            if (state->active && state->admits_stamp(there, *sample)) pairing->take(side, sample->stamp_ns(), sample);
           },
           Channel::Wants::kValid, qos[side]);
     }

@@ -83,5 +83,28 @@ TEST(Sample, KeepsItsPluginUntilTheMessageIsGone) {
   EXPECT_TRUE(alive.expired());
 }
 
+TEST(Sample, IsReadFromWhereItIsStoredWhenItIsNeeded) {
+  sensor_msgs::msg::Image image;
+  image.header().stamp().sec(3);
+  image.width(5);
+  const auto& type = interfaces::message_type<sensor_msgs::msg::Image>();
+  const SamplePtr published = Sample::of(type, std::make_shared<const sensor_msgs::msg::Image>(image), 7);
+  int reads = 0;
+  const SamplePtr stored = published->stored([&, bytes = published->bytes()] {
+    ++reads;
+    return bytes;
+  });
+  EXPECT_EQ(stored->stamp_ns(), 3'000'000'000);
+  EXPECT_EQ(reads, 0) << "its stamp is known";
+  EXPECT_EQ(Sample::as<sensor_msgs::msg::Image>(stored)->width(), 5U);
+  EXPECT_EQ(stored->bytes(), published->bytes());
+  EXPECT_EQ(reads, 1);
+  const SamplePtr other = Sample::unread(stored);
+  EXPECT_EQ(reads, 1);
+  EXPECT_EQ(other->bytes(), published->bytes());
+  EXPECT_EQ(reads, 2);
+  EXPECT_EQ(Sample::unread(published), published);
+}
+
 }  // namespace
 }  // namespace panvo::runtime

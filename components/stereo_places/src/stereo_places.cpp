@@ -52,7 +52,7 @@ landmarks::DescriptionSettings view_settings(const ViewKeypointParameters& param
 
 StereoPlaces::StereoPlaces(const Parameters& parameters, const vision::RectifiedStereo& stereo,
                            const Eigen::Isometry3d& base_from_left,
-                           std::shared_ptr<position_corrector::SpilledKeypoints> keypoints,
+                           std::shared_ptr<position_corrector::SpilledLandmarks> keypoints,
                            vision::StageObserver* observer)
     : parameters_(parameters),
       stereo_(stereo),

@@ -53,7 +53,7 @@ class StereoPlacesComponent final : public runtime::Component {
         parameters_(context.parameters<ComponentParameters>()),
         settings_(view_settings(parameters_.keypoints)),
         timer_(context.times()),
-        keypoints_(std::make_shared<position_corrector::SpilledKeypoints>(parameters_.spill_folder)),
+        keypoints_(std::make_shared<position_corrector::SpilledLandmarks>(parameters_.spill_folder)),
         landmarks_(context.output(topics::kLandmarks)),
         match_(context.output(topics::kLandmarkMatch)),
         correction_(context.output(topics::kCorrection)),
@@ -249,7 +249,7 @@ class StereoPlacesComponent final : public runtime::Component {
   const ComponentParameters parameters_;
   const landmarks::DescriptionSettings settings_;
   conversions::StageTimer timer_;
-  std::shared_ptr<position_corrector::SpilledKeypoints> keypoints_;
+  std::shared_ptr<position_corrector::SpilledLandmarks> keypoints_;
   runtime::Output<panvo_msgs::msg::PanoramicLandmark> landmarks_;
   runtime::Output<panvo_msgs::msg::LandmarkMatch> match_;
   runtime::Output<panvo_msgs::msg::PositionCorrection> correction_;

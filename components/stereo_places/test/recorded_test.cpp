@@ -66,7 +66,7 @@ class RecordedPlaces : public testing::Test {
   }
 
   StereoPlaces made(const vision::RectifiedStereo& stereo) const {
-    return {parameters, stereo, base_from_left(), std::make_shared<position_corrector::SpilledKeypoints>("")};
+    return {parameters, stereo, base_from_left(), std::make_shared<position_corrector::SpilledLandmarks>("")};
   }
 
   /// A view of the second journey, whose odometry begins elsewhere and whose position is unknown.

@@ -57,7 +57,7 @@ class StereoPlacesTest : public testing::Test {
 
   Parameters parameters;
   StereoPlaces places{parameters, Street::stereo(), base_from_left(),
-                      std::make_shared<position_corrector::SpilledKeypoints>("")};
+                      std::make_shared<position_corrector::SpilledLandmarks>("")};
   std::vector<landmarks::PanoramicLandmark> built;
   Eigen::Isometry3d drift = Eigen::Isometry3d::Identity();  // of the odometry
   std::int64_t stamp_ns = 0;

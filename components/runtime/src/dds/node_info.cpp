@@ -53,9 +53,9 @@ class CdrWriter {
 };
 
 /// Checks each length against the remaining bytes. good() returns the result.
-class Reader {
+class InfoReader {
  public:
-  Reader(std::span<const std::uint8_t> bytes, std::size_t gid_size)
+  InfoReader(std::span<const std::uint8_t> bytes, std::size_t gid_size)
       : bytes_(bytes), gid_size_(gid_size), is_big_endian_(bytes[1] == 0) {}
 
   NodeInfo::Guid gid() {
@@ -111,7 +111,7 @@ class Reader {
 };
 
 std::optional<NodeInfo> decode_with(std::span<const std::uint8_t> bytes, std::size_t gid_size) {
-  Reader reader(bytes, gid_size);
+  InfoReader reader(bytes, gid_size);
   NodeInfo info;
   info.participant = reader.gid();
   for (std::uint32_t left = reader.count(); left > 0 && reader.good(); --left) {

@@ -41,7 +41,7 @@ inline constexpr Qos kState{.durability = Durability::kTransientLocal,
 /// ROS 2's profile of rosout.
 inline constexpr Qos kLog{.durability = Durability::kTransientLocal, .depth = 1000};
 /// Events that every reader must get, late joiners included: landmarks.
-inline constexpr Qos kHistory{.durability = Durability::kTransientLocal, .depth = 10000, .keep_all = true};
+inline constexpr Qos kHistory{.durability = Durability::kTransientLocal, .depth = 1'000'000, .keep_all = true};
 }  // namespace qos
 
 }  // namespace panvo::interfaces

@@ -19,7 +19,7 @@
 #include "panvo/fleet/pose_trail.hpp"
 #include "panvo/fleet/recognition.hpp"
 #include "panvo/fleet/shared_map.hpp"
-#include "panvo/landmarks/keypoint_source.hpp"
+#include "panvo/landmarks/landmark_source.hpp"
 
 namespace panvo::fleet {
 
@@ -72,7 +72,7 @@ class Fleet {
   /// `own_keypoints`: of the own places, given on request.
   Fleet(const FleetParameters& parameters, std::string robot, const landmarks::KeypointParameters& keypoints,
         const landmarks::PanoramaDescriber& describer, landmarks::DescriptionSettings settings,
-        std::shared_ptr<const landmarks::KeypointSource> own_keypoints, vision::StageObserver* observer = nullptr);
+        std::shared_ptr<const landmarks::LandmarkSource> own_keypoints, vision::StageObserver* observer = nullptr);
 
   // The own map and pose.
   void add_pose(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_base, const vision::Matrix6d& covariance,
@@ -133,7 +133,7 @@ class Fleet {
   const std::string robot_;
   const landmarks::DescriptionSettings settings_;
   const std::string settings_text_;
-  std::shared_ptr<const landmarks::KeypointSource> own_keypoints_;
+  std::shared_ptr<const landmarks::LandmarkSource> own_keypoints_;
   Members members_;
   Recognition recognition_;
   Evidence evidence_;

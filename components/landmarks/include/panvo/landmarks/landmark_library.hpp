@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "panvo/landmarks/keypoint_source.hpp"
+#include "panvo/landmarks/landmark_source.hpp"
+#include "panvo/landmarks/large_scale_index.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
 
 namespace panvo::landmarks {
@@ -21,7 +22,7 @@ namespace panvo::landmarks {
 /// accurate component of odometry and the least relevant one for a vehicle. Every returned list is in order of ids,
 /// whatever the order of insertion.
 ///
-/// Uses 8 kB per landmark with a keypoint source; without one, keypoints and thumbnails are kept in memory as well.
+/// Uses 2.5 kB per landmark with a source; without one, description, keypoints and thumbnail are kept in memory as well.
 class LandmarkLibrary {
  public:
   struct Near {
@@ -30,12 +31,12 @@ class LandmarkLibrary {
   };
 
   /// `limits`: sizes of the matrices and histograms that the landmarks will be compared with.
-  explicit LandmarkLibrary(std::shared_ptr<KeypointSource> source = nullptr, DescriptionLimits limits = {});
+  explicit LandmarkLibrary(std::shared_ptr<const LandmarkSource> source = nullptr, DescriptionLimits limits = {});
   LandmarkLibrary(LandmarkLibrary&&) = default;
   LandmarkLibrary& operator=(LandmarkLibrary&&) = default;
 
   /// Adds a landmark and returns its id: its own, or the next free one if that is 0. Several may be at one place (see
-  /// nearest). With a source, keypoints and thumbnail are dropped: they must be in the source. Throws
+  /// nearest). With a source, description, keypoints and thumbnail are dropped: the first two must be in the source. Throws
   /// std::invalid_argument: the id is taken, the pose is not finite, or the description does not fit the limits.
   std::uint32_t add(PanoramicLandmark landmark);
 
@@ -57,8 +58,17 @@ class LandmarkLibrary {
   /// The landmark nearest to a position in the map; ties go to the lowest id. nullopt if the library is empty.
   std::optional<Near> nearest(const Eigen::Vector3d& position) const;
 
-  /// The SIFT features of a landmark: from the source if there is one, else from memory.
+  /// Of the landmarks that are asked for, those most similar to a query at the large scale, about as by
+  /// match_large_scale.
+  LargeScaleIndex::Ranking rank(const QueryDescription& query, std::size_t count,
+                                const LargeScaleIndex::Asked& is_asked) const {
+    return index_.rank(query, count, is_asked);
+  }
+
+  /// The SIFT features and the description of a landmark: from the source if there is one, else from memory. Empty if
+  /// the id is unknown.
   std::vector<Keypoint> keypoints(std::uint32_t id) const;
+  PanoramaDescription description(std::uint32_t id) const;
 
   std::size_t size() const noexcept { return by_id_.size(); }
   bool empty() const noexcept { return by_id_.empty(); }
@@ -72,11 +82,12 @@ class LandmarkLibrary {
   void put_into_cell(const PanoramicLandmark& landmark);
   void take_from_cell(const PanoramicLandmark& landmark);
 
-  std::shared_ptr<KeypointSource> source_;
+  std::shared_ptr<const LandmarkSource> source_;
   DescriptionLimits limits_;
   std::deque<PanoramicLandmark> landmarks_;  // in order of insertion
   std::vector<PanoramicLandmark*> by_id_;
   std::map<Cell, std::vector<const PanoramicLandmark*>> cells_;  // a uniform grid over the map
+  LargeScaleIndex index_;
 };
 
 }  // namespace panvo::landmarks

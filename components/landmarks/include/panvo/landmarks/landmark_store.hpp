@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "panvo/landmarks/description_settings.hpp"
-#include "panvo/landmarks/keypoint_source.hpp"
 #include "panvo/landmarks/landmark_use.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
 #include "panvo/landmarks/store_error.hpp"
@@ -47,7 +46,7 @@ enum class IfTaken {
 /// Landmarks in an SQLite file, or in a PostgreSQL database. Changes are on disk when the call returns, whole or not at
 /// all. One process may write to a file while others read; any number may write to a database, of which no two get the
 /// same id. Not thread-safe; every function may throw StoreError.
-class LandmarkStore final : public KeypointSource {
+class LandmarkStore {
  public:
   static constexpr int kLayout = 1;                  ///< version of the tables, in a file `PRAGMA user_version`
   static constexpr int kApplicationId = 0x504e564c;  ///< "PNVL", as `PRAGMA application_id`
@@ -58,7 +57,9 @@ class LandmarkStore final : public KeypointSource {
   /// Opens a store to add to it; creates the file, or the tables in the database, if they do not exist. Throws if the
   /// store was created with other settings.
   LandmarkStore(const StoreLocation& location, const DescriptionSettings& settings, const StorePatience& patience = {});
-  ~LandmarkStore() override;
+  ~LandmarkStore();
+  LandmarkStore(const LandmarkStore&) = delete;
+  LandmarkStore& operator=(const LandmarkStore&) = delete;
 
   /// Whether there is a file, or a database contains a store.
   static bool exists(const StoreLocation& location, const StorePatience& patience = {});
@@ -96,11 +97,14 @@ class LandmarkStore final : public KeypointSource {
                              const std::function<void(const std::string&)>& report = {});
 
   std::size_t size() const;
-  /// All landmarks without keypoints and thumbnails, in order of ids: the content of a library. Records that break the
-  /// rules of the store's settings are skipped and passed to `report`.
+  /// Passes all landmarks without keypoints and thumbnails, in order of ids: the content of a library. `visit` may read
+  /// from the store. Records that break the rules of the store's settings are skipped and passed to `report`.
+  void for_each(const std::function<void(PanoramicLandmark)>& visit,
+                const std::function<void(const std::string&)>& report = {}) const;
+  /// The same as a list: 8 kB each.
   std::vector<PanoramicLandmark> landmarks(const std::function<void(const std::string&)>& report = {}) const;
   /// Throws StoreError if the stored keypoints are invalid.
-  std::vector<Keypoint> keypoints(std::uint32_t id) const override;
+  std::vector<Keypoint> keypoints(std::uint32_t id) const;
   std::vector<std::uint8_t> thumbnail(std::uint32_t id) const;
   /// Total number of keypoints of all landmarks.
   std::uint64_t keypoint_count() const;

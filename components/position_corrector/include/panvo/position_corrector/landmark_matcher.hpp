@@ -7,6 +7,7 @@
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct MatchingParameters {
   double max_histogram_distance = 0.6;  ///< T_h
   double max_large_distance = 0.95;     ///< T_fl
   double max_small_distance = 0.95;     ///< T_fs
+  int max_compared = 200;
   int max_verified = 3;
   double window_m = 3.0;
   double window_s = 3.0;
@@ -47,6 +49,10 @@ struct MatchingParameters {
           0.0, 1.0);
     field(&P::max_small_distance, "max_small_distance", "1", "T_fs, the same for the small-scale features [Lu2015 5.1]",
           0.0, 1.0);
+    field(&P::max_compared, "max_compared", "1",
+          "largest number of candidates per panorama that are compared exactly; of more, the most similar ones by an "
+          "approximate comparison",
+          1, 1'000'000);
     field(&P::max_verified, "max_verified", "1",
           "largest number of candidates per panorama whose geometry is verified, most similar first", 1, 100);
     field(&P::window_m, "window_m", "m", "a minimum is final after this path without a smaller distance", 0.2, 50.0);
@@ -102,8 +108,8 @@ struct LandmarkMatch {
   double histogram_distance = std::numeric_limits<double>::quiet_NaN();
   double large_distance = std::numeric_limits<double>::quiet_NaN();
   double small_distance = std::numeric_limits<double>::quiet_NaN();
-  int candidates = 0, kept_after_histogram = 0, kept_after_large = 0;
-  std::optional<PanoramaPose> pose;       ///< of the panorama relative to the landmark
+  int candidates = 0, kept_after_histogram = 0, kept_after_large = 0;  ///< the last two: of those compared exactly
+  std::optional<PanoramaPose> pose;                                    ///< of the panorama relative to the landmark
   std::optional<PanoramaPose> weak_pose;  ///< instead of `pose`: one that needs confirmation
   int inliers = 0;                        ///< of the pose; when rejected, the largest number reached
   std::vector<PointMatch> points;         ///< what the panorama shows of the landmark's points; not when matched
@@ -128,7 +134,8 @@ class LandmarkMatcher {
 
  private:
   struct Candidate {
-    const landmarks::PanoramicLandmark* landmark = nullptr;
+    std::uint32_t id = 0;
+    landmarks::PanoramaDescription description;
     float histogram_distance = 1.0F;
     landmarks::HeadingMatch large, small;
   };
@@ -147,7 +154,9 @@ class LandmarkMatcher {
                        const landmarks::LandmarkLibrary& library);
   LandmarkMatch follow(const PanoramaFrame& frame, const landmarks::QueryDescription& query,
                        const landmarks::LandmarkLibrary& library);
-  std::vector<Candidate> candidates(const PanoramaFrame& frame, const landmarks::LandmarkLibrary& library) const;
+  /// Enters their number in the result.
+  std::vector<Candidate> candidates(const PanoramaFrame& frame, const landmarks::QueryDescription& query,
+                                    const landmarks::LandmarkLibrary& library, LandmarkMatch& match) const;
   /// Levels of the search, cheapest first. The first two return how many candidates were similar enough; of the second,
   /// only the most similar ones remain.
   int keep_similar_histograms(const landmarks::QueryDescription& query, std::vector<Candidate>& near) const;
@@ -158,7 +167,8 @@ class LandmarkMatcher {
               LandmarkMatch& match);
   /// Enters a candidate and its distances in the result.
   static void describe(const Candidate& candidate, LandmarkMatch& match);
-  bool is_left(std::uint32_t id, double travelled_m) const;
+  /// Landmarks that were just built or matched.
+  std::set<std::uint32_t> not_left(double travelled_m) const;
   std::vector<landmarks::Keypoint> keypoints_of(const cv::Mat& panorama) const;
 
   const MatchingParameters parameters_;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -14,8 +16,9 @@ namespace panvo::runtime {
 class Sample;
 using SamplePtr = std::shared_ptr<const Sample>;
 
-/// A message in transit: as object, as bytes, or both. The missing form is created on demand and shared, so a message
-/// is serialised at most once for any number of remote readers and recorders. Immutable to users; thread-safe.
+/// A message in transit: as object, as bytes, or both; or stored elsewhere. The missing form is created on demand and
+/// shared, so a message is serialised at most once for any number of remote readers and recorders. Immutable to users;
+/// thread-safe.
 class Sample {
  public:
   using Bytes = interfaces::Bytes;
@@ -34,6 +37,16 @@ class Sample {
   static SamplePtr from_bytes(const MessageType* type, std::string type_name, Bytes bytes, std::int64_t time_ns,
                               Sender sender = nullptr);
 
+  /// Reads the bytes of a stored message. Throws interfaces::DecodeError if they can no longer be read.
+  using Read = std::function<Bytes()>;
+
+  /// This message, stored: its bytes are read when message() or bytes() is called first, and kept by the result.
+  SamplePtr stored(Read read) const;
+
+  /// A sample of the same stored message that is not read yet, for a user of its own; `sample` itself if it is not
+  /// stored.
+  static SamplePtr unread(const SamplePtr& sample);
+
   const MessageType* type() const noexcept { return type_; }
   const std::string& type_name() const noexcept { return type_name_; }  ///< "nav_msgs/msg/Odometry"
 
@@ -44,6 +57,9 @@ class Sample {
 
   /// Time of publication or reception, ns: system clock (live) or replay time.
   std::int64_t time_ns() const noexcept { return time_ns_; }
+
+  /// Stamp of the header, ns; time_ns() for messages without one, and of unknown types.
+  std::int64_t stamp_ns() const;
 
   /// The message, deserialised at the first call. Throws interfaces::DecodeError; nullptr if the type is unknown.
   const void* message() const;
@@ -67,6 +83,7 @@ class Sample {
 
  private:
   Sample() = default;
+  void read_stored() const;
 
   std::shared_ptr<const void> keep_alive_;  // first, so it is destroyed last
   const MessageType* type_ = nullptr;
@@ -74,7 +91,9 @@ class Sample {
   std::int64_t time_ns_ = 0;
   Sender sender_;
   std::size_t received_size_ = 0;
-  mutable std::mutex mutex_;  // guards creation of the missing form
+  Read read_;                               // of a stored message; else empty
+  std::optional<std::int64_t> stamp_ns_{};  // of a stored message
+  mutable std::mutex mutex_;                // guards creation of the missing form
   mutable std::shared_ptr<const void> message_;
   mutable Bytes bytes_;
 };

@@ -15,7 +15,7 @@
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/position_corrector/landmark_matcher.hpp"
 #include "panvo/position_corrector/position_correction.hpp"
-#include "panvo/position_corrector/spilled_keypoints.hpp"
+#include "panvo/position_corrector/spilled_landmarks.hpp"
 #include "panvo/stereo_places/disparity_offset.hpp"
 #include "panvo/stereo_places/place_search.hpp"
 #include "panvo/stereo_places/sighting_run.hpp"
@@ -105,7 +105,7 @@ class StereoPlaces {
  public:
   /// `base_from_left`: extrinsics of the left rectified camera. `keypoints`: where those of the landmarks are kept.
   StereoPlaces(const Parameters& parameters, const vision::RectifiedStereo& stereo,
-               const Eigen::Isometry3d& base_from_left, std::shared_ptr<position_corrector::SpilledKeypoints> keypoints,
+               const Eigen::Isometry3d& base_from_left, std::shared_ptr<position_corrector::SpilledLandmarks> keypoints,
                vision::StageObserver* observer = nullptr);
 
   /// A landmark of an earlier journey or another node. False if it is known already: then its pose is updated.
@@ -151,7 +151,7 @@ class StereoPlaces {
   ViewPicture picture_;
   ViewDepths depths_;
   DisparityOffset offset_;
-  std::shared_ptr<position_corrector::SpilledKeypoints> keypoints_;
+  std::shared_ptr<position_corrector::SpilledLandmarks> keypoints_;
   landmarks::LandmarkLibrary library_;
   PlaceSearch search_;
   SightingRun run_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/position_corrector/spilled_keypoints.hpp"
+#include "panvo/position_corrector/spilled_landmarks.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -30,18 +30,43 @@ std::vector<landmarks::Keypoint> some_keypoints(unsigned seed, std::size_t count
   return keypoints;
 }
 
-TEST(SpilledKeypoints, ComeBackBitForBit) {
+TEST(SpilledLandmarks, ComeBackBitForBit) {
   const TemporaryFolder folder;
-  SpilledKeypoints spilled(folder.path());
+  SpilledLandmarks spilled(folder.path());
   ASSERT_EQ(spilled.problem(), "");
   for (unsigned id = 1; id <= 20; ++id) spilled.put(id, some_keypoints(id, 10 * id));
   for (unsigned id = 20; id >= 1; --id) EXPECT_EQ(spilled.keypoints(id), some_keypoints(id, 10 * id)) << id;
   EXPECT_EQ(spilled.bytes_in_file(), 2100U * 164U);
 }
 
-TEST(SpilledKeypoints, AreThoseThatWerePutLast) {
+landmarks::PanoramaDescription some_description(unsigned seed) {
+  std::mt19937_64 random(seed);
+  const auto any = [&] { return static_cast<float>(random() % 100'000) * 1e-3F; };
+  landmarks::PanoramaDescription description;
+  description.histogram = {any(), any(), any()};
+  for (unsigned i = 0; i < 5 + seed; ++i) {
+    description.large.push_back({static_cast<std::uint16_t>(random()), any(), any(), any()});
+    if (i % 2 == 0) description.small.push_back({static_cast<std::uint16_t>(random()), -any(), any(), any()});
+  }
+  return description;
+}
+
+TEST(SpilledLandmarks, KeepDescriptionsBesideKeypoints) {
   const TemporaryFolder folder;
-  SpilledKeypoints spilled(folder.path());
+  for (const bool is_on_disk : {true, false}) {
+    SpilledLandmarks spilled(is_on_disk ? folder.path() : "");
+    for (unsigned id = 1; id <= 5; ++id) spilled.put(id, some_keypoints(id, 3 * id), some_description(id));
+    for (unsigned id = 5; id >= 1; --id) {
+      EXPECT_EQ(spilled.description(id), some_description(id)) << id;
+      EXPECT_EQ(spilled.keypoints(id), some_keypoints(id, 3 * id)) << id;
+    }
+    EXPECT_EQ(spilled.description(6), landmarks::PanoramaDescription());
+  }
+}
+
+TEST(SpilledLandmarks, AreThoseThatWerePutLast) {
+  const TemporaryFolder folder;
+  SpilledLandmarks spilled(folder.path());
   spilled.put(1, some_keypoints(1, 50));
   spilled.put(2, some_keypoints(2, 50));
   spilled.put(1, some_keypoints(3, 70));
@@ -49,17 +74,17 @@ TEST(SpilledKeypoints, AreThoseThatWerePutLast) {
   EXPECT_EQ(spilled.keypoints(2), some_keypoints(2, 50));
 }
 
-TEST(SpilledKeypoints, AreNoneOfALandmarkThatHasNoneOrIsNotKnown) {
+TEST(SpilledLandmarks, AreNoneOfALandmarkThatHasNoneOrIsNotKnown) {
   const TemporaryFolder folder;
-  SpilledKeypoints spilled(folder.path());
+  SpilledLandmarks spilled(folder.path());
   spilled.put(1, {});
   EXPECT_TRUE(spilled.keypoints(1).empty());
   EXPECT_TRUE(spilled.keypoints(2).empty());
 }
 
-TEST(SpilledKeypoints, StayInMemoryWhereNoFileCanBeMadeAndSayWhy) {
+TEST(SpilledLandmarks, StayInMemoryWhereNoFileCanBeMadeAndSayWhy) {
   const TemporaryFolder folder;
-  SpilledKeypoints spilled(folder / "no/such/folder");
+  SpilledLandmarks spilled(folder / "no/such/folder");
   EXPECT_NE(spilled.problem().find("no/such/folder (No such file or directory)"), std::string::npos)
       << spilled.problem();
   spilled.put(1, some_keypoints(1, 50));
@@ -67,7 +92,7 @@ TEST(SpilledKeypoints, StayInMemoryWhereNoFileCanBeMadeAndSayWhy) {
   EXPECT_EQ(spilled.bytes_in_file(), 0U);
 }
 
-TEST(SpilledKeypoints, StayInMemoryWhenTheDiskIsFullAndThoseBeforeCanStillBeRead) {
+TEST(SpilledLandmarks, StayInMemoryWhenTheDiskIsFullAndThoseBeforeCanStillBeRead) {
   struct Limit {  // makes the kernel refuse to grow the file
     rlimit before{};
     explicit Limit(rlim_t bytes) {
@@ -82,7 +107,7 @@ TEST(SpilledKeypoints, StayInMemoryWhenTheDiskIsFullAndThoseBeforeCanStillBeRead
     }
   };
   const TemporaryFolder folder;
-  SpilledKeypoints spilled(folder.path());
+  SpilledLandmarks spilled(folder.path());
   spilled.put(1, some_keypoints(1, 50));
   {
     const Limit limit(50 * 164 + 1000);
@@ -93,8 +118,8 @@ TEST(SpilledKeypoints, StayInMemoryWhenTheDiskIsFullAndThoseBeforeCanStillBeRead
   for (unsigned id = 1; id <= 3; ++id) EXPECT_EQ(spilled.keypoints(id), some_keypoints(id, 50)) << id;
 }
 
-TEST(SpilledKeypoints, StayInMemoryWhereNoFolderIsNamed) {
-  SpilledKeypoints spilled("");
+TEST(SpilledLandmarks, StayInMemoryWhereNoFolderIsNamed) {
+  SpilledLandmarks spilled("");
   spilled.put(1, some_keypoints(1, 5));
   EXPECT_EQ(spilled.keypoints(1), some_keypoints(1, 5));
   EXPECT_EQ(spilled.problem(), "");
