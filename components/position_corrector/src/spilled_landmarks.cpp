@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <type_traits>
@@ -85,6 +86,16 @@ std::vector<Value> values_of(const std::vector<Record>& records) {
   return values;
 }
 
+/// -1, with errno set, if the file cannot be created.
+int open_unnamed(const std::filesystem::path& folder) {
+  const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (file >= 0 || errno != EOPNOTSUPP) return file;
+  std::string name = folder / "panvo-XXXXXX";  // file systems of containers: named for a moment
+  const int named = ::mkostemp(name.data(), O_CLOEXEC);
+  if (named >= 0) ::unlink(name.c_str());
+  return named;
+}
+
 /// Returns whether all bytes were written; else errno is set.
 bool write_all(int file, const void* data, std::size_t size, std::uint64_t offset) {
   const auto* bytes = static_cast<const char*>(data);
@@ -117,7 +128,7 @@ bool read_all(int file, void* data, std::size_t size, std::uint64_t offset) {
 
 SpilledLandmarks::SpilledLandmarks(const std::filesystem::path& folder) {
   if (folder.empty()) return;
-  file_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  file_ = open_unnamed(folder);
   if (file_ < 0) give_up("cannot create a file in " + folder.string());
 }
 

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <string>
 #include <system_error>
 
 namespace panvo::runtime {
@@ -13,10 +14,19 @@ namespace {
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
+/// -1, with errno set, if the file cannot be created.
+int open_unnamed(const std::filesystem::path& folder) {
+  const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (file >= 0 || errno != EOPNOTSUPP) return file;
+  std::string name = folder / "panvo-XXXXXX";  // file systems of containers: named for a moment
+  const int named = ::mkostemp(name.data(), O_CLOEXEC);
+  if (named >= 0) ::unlink(name.c_str());
+  return named;
+}
+
 }  // namespace
 
-HistoryFile::HistoryFile(const std::filesystem::path& folder)
-    : file_(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600)) {
+HistoryFile::HistoryFile(const std::filesystem::path& folder) : file_(open_unnamed(folder)) {
   if (file_ < 0) fail(("cannot create a file in " + folder.string()).c_str());
 }
 
