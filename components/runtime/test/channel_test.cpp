@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "panvo/interfaces/topics.hpp"
@@ -67,7 +69,7 @@ using testing::ElementsAre;
 const interfaces::MessageType& text_type() { return interfaces::message_type<String>(); }
 
 /// A topic whose late readers get all messages.
-TopicDescription kept_topic(std::size_t depth = 1000) {
+TopicDescription kept_topic(std::size_t depth = 1'000'000) {
   return {"/kept",
           std::string(text_type().name),
           {.durability = interfaces::Durability::kTransientLocal, .depth = depth, .keep_all = true},
@@ -85,7 +87,7 @@ std::string text_of(const SamplePtr& sample) { return Sample::as<String>(sample)
 /// A bridge whose only writer has as many readers as a test says.
 class FakeBridge final : public Bridge {
  public:
-  std::size_t readers = 0;
+  std::atomic<std::size_t> readers = 0;
   std::vector<std::string> sent;
 
   std::unique_ptr<BridgeWriter> open_writer(const TopicDescription&) override {
@@ -184,6 +186,21 @@ TEST_F(KeptTopic, SendsItsHistoryOnceWhenAnotherProcessReadsIt) {
   bridge.readers = 2;
   channel.send_history();
   EXPECT_EQ(bridge.sent, all) << "the writer itself serves later readers";
+}
+
+TEST_F(KeptTopic, SendsEachMessageOnceThoughAReaderComesWhileTheyArePublished) {
+  std::vector<std::string> all;
+  for (int i = 0; i < 2000; ++i) all.push_back(std::to_string(i));
+  std::thread publishing([&] {
+    for (const auto& text : all) {
+      publish(message(text));
+      if (text == "500") bridge.readers = 1;
+    }
+  });
+  while (bridge.readers == 0) std::this_thread::yield();
+  channel.send_history();
+  publishing.join();
+  EXPECT_EQ(bridge.sent, all);
 }
 
 TEST_F(KeptTopic, SendsWhatIsLeftBeforeItEnds) {
