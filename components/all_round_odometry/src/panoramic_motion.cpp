@@ -14,6 +14,7 @@ constexpr int kMinAgreeing = 20;        // points: fewer may agree by chance
 constexpr double kMinShare = 0.25;      // of the points; the rest are moving objects and wrong distances
 constexpr double kMaxWaySigma_m = 0.5;  // of a step: a larger one is of no use
 constexpr std::ptrdiff_t kEnough = 40;  // points of known distance for the scale
+constexpr int kNotRanked = INT_MAX;     // generation of a reference whose points have no distances yet
 constexpr double kKnown = 0.01;         // share of the variance of a point of which nothing is known
 constexpr double kContradicts = 4.0;    // standard deviations
 constexpr int kMaxContradicted = 3;     // in a row: the object moves, or the distance is wrong
@@ -135,7 +136,11 @@ void PanoramicMotion::rank_new_reference(int leading, const PanoramicStep& step)
   if (!latest.points.empty()) return;
   const double way_m = std::max(step.before_from_now.translation().norm(), kLeastWay_m);
   const double relative_sigma = kKept * vision::horizontal_sigma(step.covariance) / way_m;
-  latest.generation = leading + 1;
+  int last = 0;  // with few known points, those of references that are not ranked lead, too
+  for (const Reference& reference : references_) {
+    if (reference.generation != kNotRanked && &reference != &latest) last = std::max(last, reference.generation);
+  }
+  latest.generation = std::min(leading, last) + 1;
   latest.scale_variance = step.scale_variance + relative_sigma * relative_sigma;
 }
 
@@ -174,7 +179,7 @@ void PanoramicMotion::take_references(const PanoramaPoints& points) {
   std::erase_if(references_, [&](const Reference& reference) { return !tracks_of(reference.stamp_ns); });
   const bool is_taken = std::ranges::find(references_, *last_ns_, &Reference::stamp_ns) != references_.end();
   if (tracks_of(*last_ns_) && !is_taken)
-    references_.push_back({*last_ns_, local_from_last_.inverse(), INT_MAX, 0.0, {}});
+    references_.push_back({*last_ns_, local_from_last_.inverse(), kNotRanked, 0.0, {}});
 }
 
 /// From the pose of the panorama, which is the last one from now on.
