@@ -88,12 +88,10 @@ std::vector<Value> values_of(const std::vector<Record>& records) {
 
 /// -1, with errno set, if the file cannot be created.
 int open_unnamed(const std::filesystem::path& folder) {
-  const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (file >= 0 || errno != EOPNOTSUPP) return file;
-  std::string name = folder / "panvo-XXXXXX";  // file systems of containers: named for a moment
-  const int named = ::mkostemp(name.data(), O_CLOEXEC);
-  if (named >= 0) ::unlink(name.c_str());
-  return named;
+  std::string name = folder / "panvo-XXXXXX";  // for a moment: not all file systems have O_TMPFILE
+  const int file = ::mkostemp(name.data(), O_CLOEXEC);
+  if (file >= 0) ::unlink(name.c_str());
+  return file;
 }
 
 /// Returns whether all bytes were written; else errno is set.

@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "idle_bridge.hpp"
 #include "panvo/interfaces/topics.hpp"
-#include "panvo/runtime/graph.hpp"
 #include "std_msgs/msg/String.h"
 
 namespace panvo::runtime {
@@ -85,7 +85,7 @@ std::shared_ptr<const String> message(const std::string& text) {
 std::string text_of(const SamplePtr& sample) { return Sample::as<String>(sample)->data(); }
 
 /// A bridge whose only writer has as many readers as a test says.
-class FakeBridge final : public Bridge {
+class FakeBridge final : public IdleBridge {
  public:
   std::atomic<std::size_t> readers = 0;
   std::vector<std::string> sent;
@@ -106,17 +106,6 @@ class FakeBridge final : public Bridge {
     };
     return std::make_unique<Writer>(*this);
   }
-  std::unique_ptr<BridgeReader> open_reader(const TopicDescription&, std::function<void(SamplePtr)>) override {
-    return nullptr;
-  }
-  void watch_topics(std::function<void(const TopicDescription&)>) override {}
-  std::unique_ptr<BridgeService> serve(const ServiceDescription&, ServiceHandler, ServiceGuard) override {
-    return nullptr;
-  }
-  std::unique_ptr<BridgeClient> open_client(const ServiceDescription&) override { return nullptr; }
-  void set_nodes(std::vector<NodeDescription>) override {}
-  Graph graph() override { return {}; }
-  void on_warning(std::function<void(const std::string&)>) override {}
 };
 
 struct KeptTopic : testing::Test {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "panvo/runtime/graph.hpp"
+#include "idle_bridge.hpp"
 #include "process_use.hpp"
 #include "service_totals.hpp"
 
@@ -96,7 +96,7 @@ TEST_F(Diagnosed, WarnsWhileMessagesAreDroppedAndNoLonger) {
 }
 
 /// A bridge that delivers nothing and reports `overwritten` overwritten messages.
-class OverwritingBridge final : public Bridge {
+class OverwritingBridge final : public IdleBridge {
  public:
   explicit OverwritingBridge(const std::uint64_t& overwritten, std::uint64_t too_large = 0, std::uint64_t too_fast = 0)
       : overwritten_(overwritten), too_large_(too_large), too_fast_(too_fast) {}
@@ -104,15 +104,6 @@ class OverwritingBridge final : public Bridge {
   std::unique_ptr<BridgeReader> open_reader(const TopicDescription&, std::function<void(SamplePtr)>) override {
     return std::make_unique<Reader>(*this);
   }
-  std::unique_ptr<BridgeWriter> open_writer(const TopicDescription&) override { return nullptr; }
-  void watch_topics(std::function<void(const TopicDescription&)>) override {}
-  std::unique_ptr<BridgeService> serve(const ServiceDescription&, ServiceHandler, ServiceGuard) override {
-    return nullptr;
-  }
-  std::unique_ptr<BridgeClient> open_client(const ServiceDescription&) override { return nullptr; }
-  void set_nodes(std::vector<NodeDescription>) override {}
-  Graph graph() override { return {}; }
-  void on_warning(std::function<void(const std::string&)>) override {}
 
  private:
   struct Reader final : BridgeReader {
