@@ -62,7 +62,7 @@ std::uint32_t max_shared(const DdsSettings& settings, const std::string& wire_ty
 
 std::optional<std::string> sharing_warning(const DdsSettings& settings) {
   const bool is_wanted = settings.shared_image_bytes > 0 && !security_settings_from_environment().is_enabled;
-  if (!is_wanted || has_room_to_share(kRoomForReader)) return std::nullopt;
+  if (!is_wanted || SharingTurn().has_room(kRoomForReader)) return std::nullopt;
   return fmt::format(
       "{} is full, missing or not writable: images are exchanged with other processes on this machine by UDP, which "
       "takes several times as long. Remedy: enlarge it (Docker: --shm-size=256m), or set shared_images_mb: 0 in the "

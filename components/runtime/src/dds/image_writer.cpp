@@ -110,8 +110,9 @@ std::shared_ptr<Writer> ImageWriter::make_shared_writer(std::size_t size) {
   }
   const auto max_size = static_cast<std::uint32_t>(size);
   const auto room = room_for_writer(topic_.qos.depth, max_size);
+  const SharingTurn turn;
   std::shared_ptr<Writer> writer;
-  if (has_room_to_share(room)) writer = make_writer(size);
+  if (turn.has_room(room)) writer = make_writer(size);
   if (writer && writer->has_memory()) return writer;
   give_up(
       fmt::format("/dev/shm has no {:.1f} MB left to share them. Remedy: enlarge /dev/shm (Docker: --shm-size=256m), "

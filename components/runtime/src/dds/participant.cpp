@@ -11,6 +11,7 @@
 #include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "remote_only_filter.hpp"
+#include "sample_data_type.hpp"
 #include "udp_transport.hpp"
 
 namespace panvo::runtime::dds {
@@ -52,21 +53,22 @@ std::uint32_t Participant::max_shared(const std::string& wire_type_name) const {
   return dds::max_shared(settings_, wire_type_name);
 }
 
-SampleDataType& Participant::type_of(const fdds::Topic& topic) const {
-  return static_cast<SampleDataType&>(*participant_->find_type(topic.get_type_name()).get());
+void Participant::bound(const fdds::Topic& topic, std::uint32_t max_size) {
+  if (max_size > 0 && !mark_) mark_.emplace(guid().guidPrefix);
+  static_cast<SampleDataType&>(*participant_->find_type(topic.get_type_name()).get()).bound(max_size);
 }
 
 fdds::DataWriter* Participant::make_writer(fdds::Topic& topic, const fdds::DataWriterQos& qos,
                                            fdds::DataWriterListener& listener, std::uint32_t max_size) {
   const std::lock_guard lock(making_mutex_);
-  type_of(topic).bound(max_size);
+  bound(topic, max_size);
   return publisher_->create_datawriter(&topic, qos, &listener);
 }
 
 fdds::DataReader* Participant::make_reader(fdds::Topic& topic, const fdds::DataReaderQos& qos,
                                            fdds::DataReaderListener& listener, std::uint32_t max_size) {
   const std::lock_guard lock(making_mutex_);
-  type_of(topic).bound(max_size);
+  bound(topic, max_size);
   // A discovery server with a backup loses clients whose readers have filters when it is replaced. With a server, own
   // writers are in another participant, see DdsBridge.
   fdds::TopicDescription* described = &topic;

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "discovery.hpp"
@@ -20,7 +21,7 @@
 #include "panvo/runtime/bridge.hpp"
 #include "participant_qos.hpp"
 #include "same_host.hpp"
-#include "sample_data_type.hpp"
+#include "shared_segment.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -77,7 +78,8 @@ class Participant : public std::enable_shared_from_this<Participant> {
   void register_type(const std::string& wire_type_name);
   void delete_topic(const std::string& wire_name);
   fdds::ContentFilteredTopic* remote_only(fdds::Topic& topic);
-  SampleDataType& type_of(const fdds::Topic& topic) const;
+  /// Sets the size bound of a type while an endpoint is created.
+  void bound(const fdds::Topic& topic, std::uint32_t max_size);
 
   const DdsSettings settings_;
   const std::shared_ptr<Discovery> discovery_;  // used by Fast DDS until the participant is destroyed
@@ -94,6 +96,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
   std::mutex mutex_;
   std::map<std::string, OpenTopic> topics_;  // by wire name
   std::mutex making_mutex_;                  // guards the size bound of a type while an endpoint is created
+  std::optional<SharingMark> mark_;          // if an endpoint shares memory
 };
 
 /// Wire names of a topic. Throws ConfigError on an invalid type name.

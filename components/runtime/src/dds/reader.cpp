@@ -35,7 +35,9 @@ Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on
   fdds::DataReaderQos qos = participant_->subscriber().get_default_datareader_qos();
   apply(topic, qos);
   const bool is_to_share = topic.type && participant_->max_shared(wire.type_name) > 0;
-  shares_ = is_to_share && has_room_to_share(kRoomForReader);
+  std::optional<SharingTurn> turn;
+  if (is_to_share) turn.emplace();
+  shares_ = turn && turn->has_room(kRoomForReader);
   if (is_to_share && !shares_) {
     notifier_->warn(fmt::format(
         "topic {}: images from other processes on this machine are received by UDP: there is no room in /dev/shm to "
@@ -47,7 +49,7 @@ Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on
   reader_ = participant_->make_reader(*topic_, qos, *this, shares_ ? kMinShared : 0);
   if (!reader_)
     throw ConfigError(fmt::format("topic {}: Fast DDS created no reader, see its message above", topic.name));
-  if (shares_) segment_.emplace(reader_->guid());
+  if (shares_) reserve_memory_of(reader_->guid());
   participant_->endpoints().add(wire.name, reader_->guid(), false);
 }
 

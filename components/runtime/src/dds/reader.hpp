@@ -8,7 +8,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "fast_dds.hpp"
 #include "notifier.hpp"
@@ -16,7 +15,6 @@
 #include "participant.hpp"
 #include "rate_limit.hpp"
 #include "sample_data_type.hpp"
-#include "shared_segment.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -60,8 +58,7 @@ class Reader final : public BridgeReader, private fdds::DataReaderListener {
   std::atomic<std::size_t> matched_writers_ = 0;
   std::atomic<std::uint64_t> received_ = 0, lost_ = 0, rejected_ = 0, undecodable_ = 0, overwritten_ = 0;
   std::atomic<std::uint64_t> too_large_ = 0, too_fast_ = 0;
-  bool shares_ = false;  // messages may be in memory that the writer reuses
-  std::optional<SharedSegment> segment_;
+  bool shares_ = false;                 // messages may be in memory that the writer reuses
   fdds::DataReader* reader_ = nullptr;  // uses the members above
 };
 

@@ -8,27 +8,42 @@
 
 namespace panvo::runtime::dds {
 
-/// Whether /dev/shm has room for `bytes`. Writing without room ends the process (SIGBUS), so check first.
-bool has_room_to_share(std::uint64_t bytes);
-
-/// The shared memory of an endpoint, `/dev/shm/fast_datasharing_ID`: reserves all its pages and marks it as in use for
-/// the lifetime of this object. If its process is killed, Fast DDS 2.9 leaves the memory behind without a sign that the
-/// owner is gone. The mark is a lock on the file `fast_datasharing_ID_el`, which remove_shm_leftovers() checks. Destroy
-/// this object after the endpoint, which removes the memory.
-class SharedSegment {
+/// A turn in making shared memory: one process of this machine at a time checks that /dev/shm has room and takes it.
+/// Fast DDS creates the memory of an endpoint without pages; if another process takes the room in between, writing to it
+/// ends the process (SIGBUS). Hold this object from before the endpoint is created until reserve_memory_of() returns.
+class SharingTurn {
  public:
-  explicit SharedSegment(const rtps::GUID_t& endpoint);
-  ~SharedSegment();
-  SharedSegment(const SharedSegment&) = delete;
-  SharedSegment& operator=(const SharedSegment&) = delete;
+  /// Waits for other processes, but not long: if one of them stands still, the turn is taken anyway.
+  SharingTurn();
+  ~SharingTurn();
+  SharingTurn(const SharingTurn&) = delete;
+  SharingTurn& operator=(const SharingTurn&) = delete;
 
-  /// Whether Fast DDS has created the segment and all of it is reserved.
-  bool is_there() const noexcept { return is_reserved_; }
+  /// Whether /dev/shm has room for `bytes`.
+  bool has_room(std::uint64_t bytes) const;
 
  private:
-  const std::filesystem::path lock_file_;
-  int lock_ = -1;
-  bool is_reserved_ = false;
+  const int folder_;
+};
+
+/// Reserves all pages of the memory that Fast DDS has created for an endpoint, `/dev/shm/fast_datasharing_ID`. False:
+/// there is none, or not enough room; it must not be written to.
+bool reserve_memory_of(const rtps::GUID_t& endpoint);
+
+/// Marks the shared memory of a participant as in use for the lifetime of this object. If a process is killed, Fast DDS
+/// 2.9 leaves the memory behind without a sign that the owner is gone. The mark is a lock on the file
+/// `/dev/shm/fast_datasharing_PARTICIPANT_el`, which remove_shm_leftovers() checks. Create it before the memory, so that
+/// no memory is ever without a mark, and destroy it after.
+class SharingMark {
+ public:
+  explicit SharingMark(const rtps::GuidPrefix_t& participant);
+  ~SharingMark();
+  SharingMark(const SharingMark&) = delete;
+  SharingMark& operator=(const SharingMark&) = delete;
+
+ private:
+  const std::filesystem::path file_;
+  const int lock_;
 };
 
 }  // namespace panvo::runtime::dds

@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <ctime>
 #include <string>
 #include <string_view>
@@ -16,16 +15,16 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr std::string_view kPrefix = "fast_datasharing_", kLockSuffix = "_el";
+constexpr std::string_view kPrefix = "fast_datasharing_", kMarkSuffix = "_el";
 constexpr std::time_t kYouth_s = 5;
 
-/// See shared_segment.hpp.
-bool is_lock_of_a_segment(std::string_view name) { return name.starts_with(kPrefix) && name.ends_with(kLockSuffix); }
+/// See SharingMark.
+bool is_mark(std::string_view name) { return name.starts_with(kPrefix) && name.ends_with(kMarkSuffix); }
 
-/// Checks whether the owner is gone. Holds the lock, so only one process cleans up at a time.
+/// Checks whether the owner is gone. Holds its lock, so only one process cleans up at a time.
 class Ownership {
  public:
-  explicit Ownership(const std::filesystem::path& lock) : file_(open(lock.c_str(), O_RDONLY | O_CLOEXEC)) {
+  explicit Ownership(const std::filesystem::path& mark) : file_(open(mark.c_str(), O_RDONLY | O_CLOEXEC)) {
     struct stat state {};
     is_left_ = file_ >= 0 && fstat(file_, &state) == 0 && std::time(nullptr) - state.st_ctime >= kYouth_s &&
                flock(file_, LOCK_EX | LOCK_NB) == 0;
@@ -47,20 +46,23 @@ class Ownership {
 
 ShmLeftovers remove_shm_leftovers(const std::filesystem::path& folder) {
   std::error_code error;
-  std::vector<std::filesystem::path> locks;
+  std::vector<std::string> marks, segments;  // paths
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (is_lock_of_a_segment(entry.path().filename().string())) locks.push_back(entry.path());
+    const auto name = entry.path().filename().string();
+    if (name.starts_with(kPrefix)) (is_mark(name) ? marks : segments).push_back(entry.path().string());
   }
   ShmLeftovers removed;
-  for (const auto& lock : locks) {
-    const Ownership owner(lock);
+  for (const auto& mark : marks) {
+    const Ownership owner(mark);
     if (!owner.is_left()) continue;
-    const std::string name = lock.string();
-    const std::filesystem::path segment = name.substr(0, name.size() - kLockSuffix.size());
-    const std::uintmax_t size = std::filesystem::file_size(segment, error);
-    const bool is_counted = !error && std::filesystem::remove(segment, error) && !error;
-    std::filesystem::remove(lock, error);
-    if (is_counted) removed = {removed.segments + 1, removed.bytes + size};
+    const auto participant = std::string_view(mark).substr(0, mark.size() - kMarkSuffix.size());
+    for (const auto& segment : segments) {
+      if (!segment.starts_with(participant)) continue;
+      const std::uintmax_t size = std::filesystem::file_size(segment, error);
+      const bool is_counted = !error && std::filesystem::remove(segment, error) && !error;
+      if (is_counted) removed = {removed.segments + 1, removed.bytes + size};
+    }
+    std::filesystem::remove(mark, error);
   }
   return removed;
 }

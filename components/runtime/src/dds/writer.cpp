@@ -13,6 +13,7 @@
 #include "participant_qos.hpp"
 #include "remote_only_filter.hpp"
 #include "sample_data_type.hpp"
+#include "shared_segment.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -30,7 +31,7 @@ Writer::Writer(const TopicDescription& topic, const WireTopic& wire, std::shared
   if (shares()) share(qos);
   writer_ = participant_->make_writer(*topic_, qos, *this, transport_.max_shared);
   if (!writer_) throw ConfigError(fmt::format("topic {}: Fast DDS created no writer, see its message above", name_));
-  if (shares()) segment_.emplace(writer_->guid());
+  has_memory_ = shares() && reserve_memory_of(writer_->guid());
   participant_->endpoints().add(wire.name, writer_->guid(), true);
 }
 

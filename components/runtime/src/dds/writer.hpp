@@ -7,13 +7,11 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "fast_dds.hpp"
 #include "notifier.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant.hpp"
-#include "shared_segment.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -39,7 +37,7 @@ class Writer final : public BridgeWriter, private fdds::DataWriterListener {
   bool shares() const { return transport_.max_shared > 0; }
   bool is_paced() const { return transport_.is_paced; }
   /// Whether all shared memory is reserved. If not, it must not be written to.
-  bool has_memory() const { return segment_ && segment_->is_there(); }
+  bool has_memory() const { return has_memory_; }
   /// Messages kept for late joiners or not yet acknowledged are not sent any more.
   void forget_messages();
 
@@ -55,7 +53,7 @@ class Writer final : public BridgeWriter, private fdds::DataWriterListener {
   const std::shared_ptr<fdds::Topic> topic_;
   std::atomic<std::size_t> matched_readers_ = 0;
   std::atomic<bool> has_new_reader_ = false;
-  std::optional<SharedSegment> segment_;
+  bool has_memory_ = false;
   fdds::DataWriter* writer_ = nullptr;  // uses the members above
 };
 

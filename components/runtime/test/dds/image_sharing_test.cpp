@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Images shared between processes of one machine, and images that cannot be shared.
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <semaphore>
 #include <set>
 
@@ -210,8 +213,20 @@ TEST(RoomToShare, IsAsMuchAsThereIs) {
   if (access("/dev/shm", W_OK) != 0) GTEST_SKIP() << "there is no /dev/shm";
   struct statvfs state {};
   ASSERT_EQ(statvfs("/dev/shm", &state), 0);
-  EXPECT_TRUE(dds::has_room_to_share(4096));
-  EXPECT_FALSE(dds::has_room_to_share(std::uint64_t{state.f_blocks} * state.f_frsize + 4096));
+  const dds::SharingTurn turn;
+  EXPECT_TRUE(turn.has_room(4096));
+  EXPECT_FALSE(turn.has_room(std::uint64_t{state.f_blocks} * state.f_frsize + 4096));
+}
+
+TEST(RoomToShare, IsTakenByOneAtATime) {
+  if (access("/dev/shm", R_OK) != 0) GTEST_SKIP() << "there is no /dev/shm";
+  std::optional<dds::SharingTurn> first(std::in_place);
+  const int other = open("/dev/shm", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  EXPECT_NE(flock(other, LOCK_EX | LOCK_NB), 0);
+  first.reset();
+  EXPECT_TRUE(eventually([&] { return flock(other, LOCK_EX | LOCK_NB) == 0; })) << "others have their turn, too";
+  const dds::SharingTurn of_one_that_stands_still;  // does not wait forever
+  close(other);
 }
 
 // Reads the first half of a message, then the second half when allowed.
@@ -288,24 +303,29 @@ TEST(SharingNeighbourhood, IsTheSameInOneUsersProcessesAndNotInAnothers) {
   EXPECT_NE(others, own);
 }
 
-std::size_t files_of(const std::set<std::string>& segments) {
-  std::size_t count = 0;
-  for (const auto& segment : segments) count += fs::exists(segment) + fs::exists(segment + "_el");
-  return count;
+/// Those of these segments, and of the marks of their participants, that exist.
+std::set<std::string> files_of(const std::set<std::string>& segments) {
+  std::set<std::string> files;
+  for (const auto& segment : segments) {
+    for (const auto& file : {segment, segment.substr(0, segment.rfind('_')) + "_el"}) {
+      if (fs::exists(file)) files.insert(file);
+    }
+  }
+  return files;
 }
 
 TEST_F(SharedImages, OfAKilledProcessLeaveNoMemoryBehind) {
   const auto reader = read_from_peer(topic(unique_topic("image"), kImageType, interfaces::qos::kSensorData));
   const auto segments = shared_by(getpid());  // of the reader and of the peer
   ASSERT_EQ(segments.size(), 2U);
-  EXPECT_EQ(files_of(segments), 4U);
+  EXPECT_EQ(files_of(segments).size(), 4U);
   peer.signal(SIGKILL);
   EXPECT_TRUE(eventually([&] {
     remove_shm_leftovers();
-    return files_of(segments) == 2;
+    return files_of(segments).size() == 2;
   }));
   remove_shm_leftovers();
-  EXPECT_EQ(files_of(segments), 2U) << "the memory of a living process was taken away";
+  EXPECT_EQ(files_of(segments).size(), 2U) << "the memory of a living process was taken away";
 }
 
 TEST_F(SharedImages, LeaveNoMemoryBehind) {
@@ -313,7 +333,9 @@ TEST_F(SharedImages, LeaveNoMemoryBehind) {
   const auto segments = shared_by(getpid());
   ASSERT_EQ(segments.size(), 2U);
   reader.reset();
-  EXPECT_EQ(files_of(segments), 2U);
+  EXPECT_EQ(files_of(segments).size(), 3U) << "the mark is kept for other endpoints";
+  bridge.reset();
+  EXPECT_EQ(files_of(segments).size(), 2U);
 }
 
 TEST_F(BetweenProcesses, ShareNoMemoryForImagesUnlessAsked) {
