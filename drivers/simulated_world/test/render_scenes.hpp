@@ -2,10 +2,12 @@
 // Small scenes and a camera for the tests of the renderer.
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "panvo/simulated_world/camera_rays.hpp"
 #include "panvo/simulated_world/renderer.hpp"
@@ -13,20 +15,24 @@
 
 namespace panvo::simulated_world {
 
+/// The campus's materials; only those of the test scenes are painted, as the others take seconds.
+inline std::shared_ptr<const Palette> scene_palette(Season season = Season::kSummer, bool wet = false) {
+  const std::vector<std::string> used{"asphalt", "brick_red", "car_paint", "glass", "grass", "leaves_broad", "marking"};
+  return std::make_shared<const Palette>(1, "", season, wet, used);
+}
 inline std::shared_ptr<const Palette> campus_palette() {
-  static const auto made = std::make_shared<const Palette>(1, "");
+  static const auto made = scene_palette();
   return made;
 }
 inline std::uint16_t campus_material(std::string_view name) { return campus_palette()->find(name); }
 
 /// A matte, even material, apart from its texture.
 inline std::uint16_t plain_material() {
-  const auto& all = campus_palette()->materials();
-  const auto found = std::find_if(all.begin(), all.end(), [](const Material& one) {
-    return !one.overlay && !one.has_holes && one.gloss == 0.0f && one.translucency == 0.0f;
-  });
-  if (found == all.end()) throw std::runtime_error("the palette has no plain material");
-  return static_cast<std::uint16_t>(found - all.begin());
+  const auto plain = campus_material("marking");
+  const Material& one = campus_palette()->materials()[plain];
+  if (one.overlay || one.has_holes || one.gloss > 0.0f || one.translucency > 0.0f)
+    throw std::runtime_error("the marking is not a plain material");
+  return plain;
 }
 inline constexpr Tint kWhite{255, 255, 255, 0}, kBlack{0, 0, 0, 0};  // without texture
 

@@ -27,7 +27,7 @@ TEST(Renderer, ShadesAWhiteSurfaceAsTheLightSays) {
 }
 
 TEST(Renderer, LaysSnowOnWhatFacesUpwards) {
-  static const auto winter = std::make_shared<const Palette>(1, "", Season::kSnow);
+  static const auto winter = scene_palette(Season::kSnow);
   auto scene = empty_scene();
   auto snowy = empty_scene();
   snowy->palette = winter;

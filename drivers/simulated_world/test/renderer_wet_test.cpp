@@ -12,7 +12,7 @@ const Eigen::Vector3d kEye(0.0, 0.0, 1.5);
 
 /// Even ground of one material, wet or dry.
 std::shared_ptr<Scene> ground_of(std::string_view material, bool is_wet) {
-  static const auto wet = std::make_shared<const Palette>(1, "", Season::kSummer, true);
+  static const auto wet = scene_palette(Season::kSummer, true);
   auto scene = empty_scene();
   if (is_wet) scene->palette = wet;
   Mesh mesh;

@@ -115,34 +115,43 @@ Material material_of(const Recipe& recipe, const cv::Mat& picture) {
   return material;
 }
 
+cv::Mat grey_picture() { return cv::Mat(4, 4, CV_8UC4, cv::Scalar(128.0, 128.0, 128.0, 255.0)); }
+
 }  // namespace
 
 Palette Palette::unpainted() {
-  const cv::Mat grey(4, 4, CV_8UC4, cv::Scalar(128.0, 128.0, 128.0, 255.0));
   Palette palette;
   for (const Recipe& recipe : material_recipes(Season::kSummer))
-    palette.materials_.push_back(material_of(recipe, grey));
+    palette.materials_.push_back(material_of(recipe, grey_picture()));
   return palette;
 }
 
-Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season, bool wet) {
+Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season, bool wet,
+                 const std::vector<std::string>& only) {
   const std::vector<Recipe> recipes = material_recipes(season);
   const auto photographs = read_photographs(assets, recipes);
   constexpr std::array kWears{Wear::kNone, Wear::kRoad, Wear::kNewRoad, Wear::kGround, Wear::kWall, Wear::kPlaster};
   std::vector<Overlay> overlays(kWears.size());
   materials_.resize(recipes.size());
+  const auto is_painted = [&](const Recipe& recipe) {
+    return only.empty() || std::ranges::find(only, recipe.name) != only.end();
+  };
+  const auto is_needed = [&](Wear wear) {
+    return std::ranges::any_of(recipes, [&](const Recipe& one) { return one.wear == wear && is_painted(one); });
+  };
 
   // Each picture depends only on the seed and its name; they are distributed over the thread pool.
   const int jobs = static_cast<int>(overlays.size() + recipes.size());
   const auto make = [&](int job) {
     if (job < static_cast<int>(overlays.size())) {
-      overlays[job] = make_overlay(kWears[job], Random(seed, "overlay").part(job));
+      if (is_needed(kWears[job])) overlays[job] = make_overlay(kWears[job], Random(seed, "overlay").part(job));
       return;
     }
     const Recipe& recipe = recipes[job - overlays.size()];
     const auto photograph = photographs.find(recipe.name);
-    const cv::Mat picture =
-        photograph != photographs.end() ? photograph->second : recipe.paint(Random(seed, recipe.name));
+    const cv::Mat picture = photograph != photographs.end() ? photograph->second
+                            : is_painted(recipe)            ? recipe.paint(Random(seed, recipe.name))
+                                                            : grey_picture();
     Material& material = materials_[job - overlays.size()];
     material = material_of(recipe, picture);
     if (season == Season::kSnow) material.snow = snow_on(recipe.name);
@@ -165,6 +174,7 @@ Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets, Season
     if (failure) std::rethrow_exception(failure);
   }
   for (std::size_t number = 0; number < recipes.size(); ++number) {
+    if (!is_painted(recipes[number])) continue;
     const auto wear = std::ranges::find(kWears, recipes[number].wear);
     const Overlay& overlay = overlays[wear - kWears.begin()];
     materials_[number].overlay = overlay.texture;

@@ -37,11 +37,13 @@ struct Material {
 };
 
 /// All materials of the campus. Textures are generated from the seed; photographs in the folder `assets` (NAME.jpg or
-/// NAME.png, tileable, covering the material's period) replace them. Throws std::runtime_error with the file that
-/// cannot be read or has no material of its name.
+/// NAME.png, tileable, covering the material's period) replace them. `only`: the materials that a small scene needs; the
+/// others are left as in unpainted(). Throws std::runtime_error with the file that cannot be read or has no material of
+/// its name.
 class Palette {
  public:
-  Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season = Season::kSummer, bool wet = false);
+  Palette(std::uint64_t seed, const std::filesystem::path& assets, Season season = Season::kSummer, bool wet = false,
+          const std::vector<std::string>& only = {});
 
   /// The same materials, all grey and without wear: made at once, for what needs their names only.
   static Palette unpainted();
