@@ -118,7 +118,7 @@ std::optional<landmarks::PanoramicLandmark> LandmarkBuilder::build(const Kept& c
   }
   {
     const vision::Stage stage(observer_, "keypoints");
-    landmark.keypoints = landmarks::detect_keypoints(chosen.grey, parameters_.keypoints);
+    landmark.keypoints = landmarks::detect_keypoints(chosen.grey, parameters_.keypoints, seen_);
   }
   {
     const vision::Stage stage(observer_, "triangulate");
@@ -126,7 +126,7 @@ std::optional<landmarks::PanoramicLandmark> LandmarkBuilder::build(const Kept& c
     std::vector<NeighbourPanorama> neighbours;
     for (const Kept* kept : neighbours_of(chosen)) {
       neighbours.push_back({landmark_from_odom * kept->odom_from_base * base_from_panorama_,
-                            landmarks::detect_keypoints(kept->grey, parameters_.keypoints)});
+                            landmarks::detect_keypoints(kept->grey, parameters_.keypoints, seen_)});
     }
     triangulate_keypoints(landmark.keypoints, neighbours, parameters_.triangulation);
   }

@@ -69,6 +69,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_enhanced(*message); });
     context.input(topics::kPanoramaTimeReference, [this](const auto& message) { on_time_reference(*message); });
+    context.input(topics::kVehicleMask, [this](const auto& message) { on_vehicle_mask(*message); });
     context.input(topics::kLandmarkMatch, [this](const auto& message) { on_match(*message); });
     context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(message); });
@@ -123,6 +124,11 @@ class LandmarkBuilderComponent final : public runtime::Component {
   }
 
   std::int64_t in_odometry_time(std::int64_t panorama_stamp_ns) const { return panorama_stamp_ns - panorama_ahead_ns_; }
+
+  void on_vehicle_mask(const sensor_msgs::msg::Image& message) {
+    if (const auto seen = conversions::grey(message)) seen_ = seen->clone();
+    if (builder_) builder_->set_seen(seen_);
+  }
 
   void on_match(const panvo_msgs::msg::LandmarkMatch& message) {
     const bool is_passed = message.state() == panvo_msgs::msg::LandmarkMatch_Constants::MATCHED;
@@ -231,6 +237,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
       return false;
     }
     size_ = size;
+    builder_->set_seen(seen_);
     for (const auto& [id, position] : known_) tell_builder(id);
     return true;
   }
@@ -245,6 +252,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
   vision::PanoramaWatch watch_;
   std::optional<LandmarkBuilder> builder_;
   cv::Size size_;
+  cv::Mat seen_;                                    // all but the vehicle; empty: unknown
   std::map<std::uint32_t, Eigen::Vector2d> known_;  // all published landmarks, of any node
   std::map<std::uint32_t, std::int64_t> stamps_ns_;
   std::optional<std::int64_t> first_ns_;  // of the odometry

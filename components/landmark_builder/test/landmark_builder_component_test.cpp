@@ -87,6 +87,19 @@ TEST_F(LandmarkBuilderComponent, PublishesALandmarkOfThePanoramaNearestToTheCros
   EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(landmark)) * 1e-9, 100.0 + 0.2 * x, 1e-3);
 }
 
+TEST_F(LandmarkBuilderComponent, TakesNoKeypointsFromTheVehicle) {
+  load();
+  publish_mounting();
+  const auto mask = conversions::make_image(1, "", "mono8", 108, 54);
+  conversions::pixels(*mask).setTo(255);
+  conversions::pixels(*mask).colRange(54, 108).setTo(0);  // all to the right of the picture's middle
+  harness_.publish(topics::kVehicleMask, std::shared_ptr<const sensor_msgs::msg::Image>(mask));
+  drive();
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  EXPECT_FALSE(landmarks_[0]->keypoints().empty());
+  for (const auto& keypoint : landmarks_[0]->keypoints()) EXPECT_LT(keypoint.bearing()[0], 0.0F);
+}
+
 TEST_F(LandmarkBuilderComponent, TakesThePoseOfTheTimeAtWhichThePanoramaWasTaken) {
   load();
   publish_mounting();

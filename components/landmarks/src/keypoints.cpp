@@ -104,11 +104,13 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
   const cv::Mat grey = to_described_size(panorama);
   const vision::Equirectangular sphere{grey.cols, grey.rows};
   const Section section = cut_section(grey, parameters);
+  cv::Mat seen;
+  if (!mask.empty()) cv::resize(mask, seen, grey.size(), 0.0, 0.0, cv::INTER_NEAREST);
   // Keypoints in the margins are also found at the other end.
   const auto sector_of = [&](const cv::KeyPoint& keypoint) -> std::optional<int> {
     const Eigen::Vector2d pixel = section.to_panorama(keypoint.pt);
     if (pixel.x() < -0.5 || pixel.x() >= grey.cols - 0.5) return std::nullopt;
-    if (!mask.empty() && is_masked(mask, pixel, keypoint.size * section.scale)) return std::nullopt;
+    if (!seen.empty() && is_masked(seen, pixel, keypoint.size * section.scale)) return std::nullopt;
     return static_cast<int>((pixel.x() + 0.5) * kSectors / grey.cols);
   };
   std::vector<Keypoint> keypoints;

@@ -27,6 +27,7 @@ constexpr int kMaxFailures = 3;                       // consecutive failures be
 constexpr double kSideSector_rad = 0.6;               // on each side of the lateral direction
 constexpr double kAhead = 0.05;        // sine: closer to the direction of travel, the magnification is undefined
 constexpr double kMaxMagnified = 1.6;  // larger changes are clamped
+constexpr int kPatch_px = 10;          // half the width of what a point is recognised by
 constexpr double kZenithShare = 0.2;   // of the rows: overhead region
 constexpr double kSkyQuantile = 0.2;   // of the overhead grey levels
 constexpr double kSkyShare = 0.75;     // of that quantile: darker pixels are not sky
@@ -51,6 +52,22 @@ double darkest_sky(const cv::Mat& panorama, const cv::Mat& band) {
   const auto low = overhead.begin() + static_cast<std::ptrdiff_t>(kSkyQuantile * static_cast<double>(overhead.size()));
   std::nth_element(overhead.begin(), low, overhead.end());
   return *low > cv::mean(band)[0] ? kSkyShare * *low : 256.0;
+}
+
+/// Interpolates grey levels of a full turn between the columns that are seen.
+void fill_across(const cv::Mat& seen, cv::Mat row) {
+  const int columns = row.cols;
+  const auto is_seen = [&](int column) { return seen.at<uchar>((column % columns + columns) % columns) != 0; };
+  const auto grey = [&](int column) -> uchar& { return row.at<uchar>((column % columns + columns) % columns); };
+  for (int first = 0; first < columns; ++first) {
+    if (is_seen(first) || !is_seen(first - 1)) continue;  // not the beginning of a covered part
+    int end = first;
+    while (!is_seen(end)) ++end;
+    const double from = grey(first - 1), to = grey(end);
+    for (int column = first; column < end; ++column) {
+      grey(column) = cv::saturate_cast<uchar>(from + (to - from) * (column - first + 1) / (end - first + 1));
+    }
+  }
 }
 
 /// Tracks points on all sides relative to a reference panorama that is kept over several panoramas.
@@ -84,6 +101,15 @@ class AllRound final : public PanoramicCompass::Method {
     return change;
   }
 
+  void set_seen(const cv::Mat& seen) override {
+    cv::Mat whole;
+    cv::resize(seen, whole, {BandCutter::kColumns, BandCutter::kRows}, 0.0, 0.0, cv::INTER_NEAREST);
+    seen_ = whole.rowRange(cutter_.first_row, cutter_.first_row + cutter_.rows);
+    cv::erode(seen_, seen_, cv::getStructuringElement(cv::MORPH_RECT, {2 * kPatch_px + 1, 2 * kPatch_px + 1}));
+    field_.keep_seen(seen_);
+    for (Earlier& earlier : earlier_) earlier.field.keep_seen(seen_);
+  }
+
   void keep_earlier_points() override { keeps_earlier_ = true; }
 
   const TrackedPoints* points() const override { return has_points_ ? &tracked_ : nullptr; }
@@ -101,8 +127,17 @@ class AllRound final : public PanoramicCompass::Method {
     now_ = RoundBand(band, darkest_sky(panorama, band));
     const cv::Mat& half = now_.pyramid[1];
     const int margin = RoundBand::kMargin_px / kScale;
-    features_.emplace(sectors_.prepare(half.colRange(margin, margin + band.cols / kScale)));
+    features_.emplace(sectors_.prepare(uncovered(half.colRange(margin, margin + band.cols / kScale))));
     return band;
+  }
+
+  /// The half-size band with what is beside the vehicle in its place, so that its edges do not look like no turn.
+  cv::Mat uncovered(const cv::Mat& half) const {
+    if (seen_.empty()) return half;
+    cv::Mat seen, filled = half.clone();
+    cv::resize(seen_, seen, half.size(), 0.0, 0.0, cv::INTER_NEAREST);
+    for (int row = 0; row < filled.rows; ++row) fill_across(seen.row(row), filled.row(row));
+    return filled;
   }
 
   AzimuthChange measure(std::int64_t stamp_ns) {
@@ -194,6 +229,7 @@ class AllRound final : public PanoramicCompass::Method {
     };
     std::vector<BearingPair> pairs;
     for (const FoundPoint& found : field.follow(now_, shift_px, magnification)) {
+      if (!is_seen(seen_, found.now)) continue;
       const double cosine = std::cos((found.now.y() + cutter_.first_row - 0.5 * BandCutter::kRows) / kPerRadian);
       const Eigen::Vector2d per_pixel(cosine / kPerRadian, 1.0 / kPerRadian);
       pairs.push_back(
@@ -249,7 +285,7 @@ class AllRound final : public PanoramicCompass::Method {
 
   void refer_to(std::int64_t stamp_ns) {
     const vision::Stage stage(observer_, "reference");
-    field_ = PointField(now_, parameters_.points);
+    field_ = PointField(now_, parameters_.points, seen_);
     points_at_first_ = field_.size();
     reference_ns_ = stamp_ns;
     now_from_reference_ = Eigen::Matrix3d::Identity();
@@ -271,6 +307,7 @@ class AllRound final : public PanoramicCompass::Method {
   SectorPatches sectors_;
   vision::StageObserver* observer_;
 
+  cv::Mat seen_;  // as large as the band; empty: all of it
   RoundBand now_;
   std::optional<FeatureBand> features_;
   PointField field_;

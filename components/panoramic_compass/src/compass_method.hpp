@@ -13,6 +13,7 @@ class PanoramicCompass::Method {
   virtual ~Method() = default;
   virtual std::optional<AzimuthChange> track(std::int64_t stamp_ns, const cv::Mat& panorama,
                                              double expected_turn_rad) = 0;
+  virtual void set_seen(const cv::Mat& /*seen*/) {}
   virtual void keep_earlier_points() {}
   virtual const TrackedPoints* points() const { return nullptr; }
 };

@@ -92,6 +92,8 @@ std::optional<AzimuthChange> PanoramicCompass::track(std::int64_t stamp_ns, cons
   return method_->track(stamp_ns, panorama, expected_turn_rad.value_or(0.0));
 }
 
+void PanoramicCompass::set_seen(const cv::Mat& seen) { method_->set_seen(seen); }
+
 void PanoramicCompass::keep_earlier_points() { method_->keep_earlier_points(); }
 
 const TrackedPoints* PanoramicCompass::points() const { return method_->points(); }

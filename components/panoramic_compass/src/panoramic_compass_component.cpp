@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "panvo/conversions/image.hpp"
+#include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_listener.hpp"
@@ -14,6 +17,7 @@
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/vision/panorama_watch.hpp"
+#include "panvo/vision/vehicle_mask.hpp"
 #include "point_messages.hpp"
 
 namespace panvo::panoramic_compass {
@@ -22,6 +26,8 @@ namespace panvo::panoramic_compass {
 struct ComponentParameters : CompassParameters {
   int seed = 1;
   std::string base_frame = "base_link";
+  bool learn_vehicle_mask = true;
+  std::string vehicle_mask;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -39,11 +45,16 @@ struct ComponentParameters : CompassParameters {
     field(&P::seed, "seed", "", "seed of the random measurement matrices", 0, 1'000'000'000);
     field(&P::base_frame, "base_frame", "",
           "vehicle frame; /tf_static must contain the rotation of the panoramic camera in it");
+    field(&P::learn_vehicle_mask, "learn_vehicle_mask", "",
+          "learn where the panorama shows the vehicle itself: what stays in the picture while the odometry turns");
+    field.path(&P::vehicle_mask, "vehicle_mask",
+               "picture of the whole panorama in any size, black where it shows the vehicle, instead of learning; "
+               "empty: none");
   }
 };
 
-/// panorama/image, /tf_static -> compass/azimuth_change, one message per panorama except the first; invalid ones state
-/// the reason; and compass/points, if read.
+/// panorama/image, /tf_static, odometry/binocular -> compass/azimuth_change, one message per panorama except the first;
+/// invalid ones state the reason; compass/points, if read; panorama/vehicle_mask. Odometry is used to learn the mask only.
 class PanoramicCompassComponent final : public runtime::Component {
  public:
   explicit PanoramicCompassComponent(runtime::Context& context)
@@ -52,19 +63,64 @@ class PanoramicCompassComponent final : public runtime::Component {
         timer_(context.times()),
         azimuth_change_(context.output(topics::kAzimuthChange)),
         points_(context.output(topics::kPanoramaPoints)),
+        mask_output_(context.output(topics::kVehicleMask)),
         transforms_(context) {
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(*message); });
     make_compass(upright_base_from_panorama());
+    if (!parameters_.vehicle_mask.empty()) {
+      set_seen(read_mask());
+    } else if (parameters_.learn_vehicle_mask) {
+      context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
+    }
   }
 
  private:
+  struct Heading {
+    std::int64_t stamp_ns;
+    double yaw_rad;
+  };
+
+  static constexpr std::int64_t kMaxApart_ns = 500'000'000;  // heading and panorama: a vehicle turns by some degrees
+
   void make_compass(const Eigen::Matrix3d& base_from_panorama) {
     base_from_panorama_ = base_from_panorama;
     try {
       compass_.emplace(parameters_, static_cast<std::uint64_t>(parameters_.seed), base_from_panorama, &timer_);
+      if (!seen_.empty()) compass_->set_seen(seen_);
     } catch (const std::invalid_argument& error) {
       throw runtime::ConfigError(context_.name() + ": " + error.what());
     }
+  }
+
+  cv::Mat read_mask() const {
+    context_.about_to_read(parameters_.vehicle_mask);
+    const cv::Mat mask = cv::imread(parameters_.vehicle_mask, cv::IMREAD_GRAYSCALE);
+    if (mask.empty()) {
+      throw runtime::ConfigError(
+          fmt::format("{}: vehicle_mask: {} cannot be read as a picture", context_.name(), parameters_.vehicle_mask));
+    }
+    return vision::to_cells(mask);
+  }
+
+  void on_odometry(const nav_msgs::msg::Odometry& message) {
+    const auto pose = conversions::to_isometry(message.pose().pose());
+    if (!pose) return;
+    const Eigen::Vector3d ahead = pose->linear().col(0);
+    heading_ = Heading{conversions::stamp_ns(message), std::atan2(ahead.y(), ahead.x())};
+  }
+
+  void learn_mask(std::int64_t stamp_ns, const cv::Mat& panorama) {
+    if (!heading_ || std::abs(stamp_ns - heading_->stamp_ns) > kMaxApart_ns) return;
+    if (!mask_.wants(stamp_ns, heading_->yaw_rad)) return;
+    if (mask_.add(stamp_ns, panorama, heading_->yaw_rad)) set_seen(mask_.seen());
+  }
+
+  void set_seen(const cv::Mat& seen) {
+    seen_ = seen.clone();
+    compass_->set_seen(seen_);
+    const auto message = conversions::make_image(last_stamp_ns_.value_or(0), "", "mono8", seen_.cols, seen_.rows);
+    seen_.copyTo(conversions::pixels(*message));
+    mask_output_.publish(message);
   }
 
   void on_panorama(const sensor_msgs::msg::Image& message) {
@@ -84,6 +140,7 @@ class PanoramicCompassComponent final : public runtime::Component {
       return tell({.from_stamp_ns = *before_ns, .stamp_ns = stamp_ns, .reason = "the panorama " + *fault},
                   message.header().frame_id());
     }
+    if (!find_fault(*panorama)) learn_mask(stamp_ns, *panorama);
     const bool has_point_reader = context_.has_reader(topics::kPanoramaPoints);
     if (has_point_reader) compass_->keep_earlier_points();
     const auto change = compass_->track(stamp_ns, *panorama);
@@ -125,11 +182,15 @@ class PanoramicCompassComponent final : public runtime::Component {
   conversions::StageTimer timer_;
   runtime::Output<panvo_msgs::msg::AzimuthChange> azimuth_change_;
   runtime::Output<panvo_msgs::msg::PanoramaPoints> points_;
+  runtime::Output<sensor_msgs::msg::Image> mask_output_;
 
   conversions::TransformListener transforms_;
   Eigen::Matrix3d base_from_panorama_;
   vision::PanoramaWatch watch_;
   std::optional<PanoramicCompass> compass_;
+  std::optional<Heading> heading_;  // latest
+  vision::VehicleMask mask_;
+  cv::Mat seen_;  // empty: nothing is known of the vehicle
   std::optional<std::int64_t> last_stamp_ns_;
   bool is_valid_ = true;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "panvo/vision/corner_detector.hpp"
@@ -34,13 +35,21 @@ bool is_solid(const RoundBand& band, const Eigen::Vector2d& in_margin) {
 
 }  // namespace
 
+bool is_seen(const cv::Mat& seen, const Eigen::Vector2d& in_band) {
+  if (seen.empty()) return true;
+  const int column = std::clamp(static_cast<int>(in_band.x()), 0, seen.cols - 1);
+  const int row = std::clamp(static_cast<int>(in_band.y()), 0, seen.rows - 1);
+  return seen.at<std::uint8_t>(row, column) != 0;
+}
+
 RoundBand::RoundBand(const cv::Mat& band, double darkest_sky) : columns(band.cols), sky_grey(darkest_sky) {
   cv::Mat round;
   cv::copyMakeBorder(band, round, 0, 0, kMargin_px, kMargin_px, cv::BORDER_WRAP | cv::BORDER_ISOLATED);
   pyramid = vision::ImagePyramid(round, 2);
 }
 
-PointField::PointField(const RoundBand& reference, const PointParameters& parameters) : parameters_(parameters) {
+PointField::PointField(const RoundBand& reference, const PointParameters& parameters, const cv::Mat& seen)
+    : parameters_(parameters) {
   if (reference.pyramid.levels() < 2) return;
   reference_ = reference.pyramid[0];
   const vision::CellGrid grid(reference.pyramid[0].size(), parameters.spacing_px);
@@ -48,9 +57,14 @@ PointField::PointField(const RoundBand& reference, const PointParameters& parame
        vision::detect_corners(reference.pyramid, grid, parameters.min_gradient, kRowMargin_px)) {
     const Eigen::Vector2d place = corner.position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
     if (place.x() < 0.0 || place.x() >= reference.columns || !is_solid(reference, corner.position)) continue;
+    if (!is_seen(seen, place)) continue;
     const auto half = PatchTemplate::sample(reference.pyramid[1], 0.5 * corner.position);
     if (half) points_.push_back({static_cast<int>(points_.size()), place, place, *half, {}});
   }
+}
+
+void PointField::keep_seen(const cv::Mat& seen) {
+  std::erase_if(points_, [&](const Point& point) { return !is_seen(seen, point.then); });
 }
 
 // Resamples the template at the expected magnification. Without it, the position of a roof edge below the sky is biased

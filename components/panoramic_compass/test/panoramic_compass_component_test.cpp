@@ -2,14 +2,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <utility>
 
 #include "painted_panorama.hpp"
 #include "panvo/conversions/image.hpp"
+#include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_buffer.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
+#include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::panoramic_compass {
 namespace {
@@ -33,6 +39,25 @@ class PanoramicCompassComponent : public testing::Test {
     tf2_msgs::msg::TFMessage message;
     message.transforms({conversions::to_static_transform(0, "base_link", "panorama", mounting)});
     harness.publish(topics::kTfStatic, message);
+  }
+
+  void publish_heading(double yaw_rad) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.rotate(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
+    nav_msgs::msg::Odometry odometry;
+    odometry.header().stamp(conversions::to_stamp((frames + 1) * kPeriod_ns));
+    odometry.pose().pose(conversions::to_pose(pose));
+    harness.publish(topics::kOdometryBinocular, odometry);
+  }
+  /// Turns by 30 degrees with a mast between the columns 400 and 500.
+  void turn_with_mast() {
+    const cv::Mat mast = paint_panorama(5);
+    for (double columns = 0.0; columns < 90.0; columns += 9.0) {
+      cv::Mat view = turned_left(street, columns);
+      mast.colRange(400, 500).copyTo(view.colRange(400, 500));
+      publish_heading(columns * kColumn_rad);
+      publish(view);
+    }
   }
 
   runtime::ComponentHarness harness;
@@ -172,6 +197,52 @@ TEST_F(PanoramicCompassComponent, LeavesOutWhatComesOutOfOrder) {
   publish(street);
   EXPECT_TRUE(changes.empty());
   EXPECT_TRUE(harness.log_contains("not later than the previous one"));
+}
+
+TEST_F(PanoramicCompassComponent, LearnsTheVehicleAndTellsOthers) {
+  const auto& masks = harness.collect(topics::kVehicleMask);
+  load();
+  turn_with_mast();
+  ASSERT_FALSE(masks.empty());
+  const cv::Mat mask = *conversions::grey(*masks.back());
+  const cv::Mat walls = mask.rowRange(15, 27);
+  EXPECT_LT(cv::mean(walls.colRange(41, 49))[0], 50.0);
+  EXPECT_GT(cv::mean(walls.colRange(0, 38))[0], 200.0);
+}
+
+TEST_F(PanoramicCompassComponent, LearnsNoVehicleIfNotAllowed) {
+  const auto& masks = harness.collect(topics::kVehicleMask);
+  load({{"learn_vehicle_mask", "false"}});
+  turn_with_mast();
+  EXPECT_TRUE(masks.empty());
+}
+
+TEST_F(PanoramicCompassComponent, TakesTheVehicleFromAPicture) {
+  const test::TemporaryFolder folder;
+  cv::Mat picture(540, 1080, CV_8UC1, cv::Scalar(255));
+  picture.colRange(400, 500).setTo(0);
+  cv::imwrite((folder / "vehicle.png").string(), picture);
+  const auto& masks = harness.collect(topics::kVehicleMask);
+  load({{"vehicle_mask", (folder / "vehicle.png").string()}});
+  turn_with_mast();
+  ASSERT_EQ(masks.size(), 1U);
+  const cv::Mat mask = *conversions::grey(*masks[0]);
+  EXPECT_EQ(cv::countNonZero(mask), 98 * 54);
+  EXPECT_EQ(cv::countNonZero(mask.colRange(40, 50)), 0);
+}
+
+TEST_F(PanoramicCompassComponent, RefusesAPictureOfTheVehicleThatIsNone) {
+  const test::TemporaryFolder folder;
+  folder.write("text.png", "no picture");
+  for (const char* file : {"text.png", "nowhere.png"}) {
+    try {
+      load({{"vehicle_mask", (folder / file).string()}});
+      FAIL() << file;
+    } catch (const runtime::ConfigError& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string(file) + " cannot be read"), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST_F(PanoramicCompassComponent, RefusesParametersThatContradictEachOther) {

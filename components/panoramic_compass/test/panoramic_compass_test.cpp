@@ -182,6 +182,34 @@ TEST(PointsAllRound, AreNotMisledByAMoverThatCoversAThirdOfTheView) {
   EXPECT_NEAR(turn.change_rad, 10.0 * kColumn_rad, 0.1 * kColumn_rad);
 }
 
+/// A vehicle with four masts, of another seed than the street, over half of the view.
+cv::Mat with_masts(const cv::Mat& street) {
+  static const cv::Mat masts = paint_panorama(5);
+  cv::Mat view = street.clone();
+  for (int column = 0; column < kColumns; column += 270) {
+    masts.colRange(column, column + 135).copyTo(view.colRange(column, column + 135));
+  }
+  return view;
+}
+
+TEST(PointsAllRound, LeaveOutTheVehicle) {
+  const cv::Mat street = paint_panorama(), turned = turned_left(street, 10.0);
+  cv::Mat seen(54, 108, CV_8UC1, cv::Scalar(255));
+  for (int column = 0; column < 108; column += 27) seen.colRange(column, column + 14).setTo(0);
+  PanoramicCompass told(with_method("all_round")), told_late(with_method("all_round"));
+  told.set_seen(seen);
+  told.track(1'000, with_masts(street));
+  told_late.track(1'000, with_masts(street));
+  told_late.set_seen(seen);
+  for (PanoramicCompass* compass : {&told, &told_late}) {
+    const auto turn = compass->track(2'000, with_masts(turned));
+    EXPECT_TRUE(turn->valid) << turn->reason;
+    EXPECT_NEAR(turn->change_rad, 10.0 * kColumn_rad, 0.2 * kColumn_rad);
+  }
+  const AzimuthChange misled = change_all_round(with_masts(street), with_masts(turned));
+  EXPECT_GT(std::abs(misled.change_rad - 10.0 * kColumn_rad), 1.0 * kColumn_rad) << "this would show nothing";
+}
+
 TEST(PointsAllRound, TellATurnFromADriveAhead) {
   const cv::Mat street = paint_panorama();
   for (const double turn_rad : {-0.2, 0.0, 0.1}) {

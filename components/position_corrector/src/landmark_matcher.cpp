@@ -255,7 +255,7 @@ std::set<std::uint32_t> LandmarkMatcher::not_left(double travelled_m) const {
 
 std::vector<landmarks::Keypoint> LandmarkMatcher::keypoints_of(const cv::Mat& panorama) const {
   const vision::Stage stage(observer_, "keypoints");
-  return detect_keypoints(panorama, keypoint_parameters_);
+  return detect_keypoints(panorama, keypoint_parameters_, seen_);
 }
 
 }  // namespace panvo::position_corrector

@@ -77,8 +77,8 @@ struct ComponentParameters {
   }
 };
 
-/// panorama/image, odometry/binocular, landmarks, landmarks/poses, /tf_static -> landmarks/match, correction,
-/// landmarks/match_points. Each panorama gets a match message, which states the reason if nothing matched. A correction
+/// panorama/image, panorama/vehicle_mask, odometry/binocular, landmarks, landmarks/poses, /tf_static -> landmarks/match,
+/// correction, landmarks/match_points. Each panorama gets a match message, which states the reason if nothing matched. A correction
 /// follows if a landmark was locked or rejected by geometry, with the matched points if anybody reads them.
 class PositionCorrectorComponent final : public runtime::Component {
  public:
@@ -98,6 +98,7 @@ class PositionCorrectorComponent final : public runtime::Component {
         transforms_(context) {
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
+    context.input(topics::kVehicleMask, [this](const auto& message) { on_vehicle_mask(*message); });
     context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(*message); });
   }
@@ -130,6 +131,10 @@ class PositionCorrectorComponent final : public runtime::Component {
     early_poses_.replace(*poses, [this](const landmarks::LandmarkPose& pose) {
       return library_.set_pose(pose.id, pose.map_from_base, pose.covariance);
     });
+  }
+
+  void on_vehicle_mask(const sensor_msgs::msg::Image& message) {
+    if (const auto seen = conversions::grey(message)) matcher_.set_seen(seen->clone());
   }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {

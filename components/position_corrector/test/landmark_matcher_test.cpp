@@ -52,6 +52,16 @@ TEST_F(LandmarkMatching, FindsAPlaceAtAnyHeading) {
   }
 }
 
+TEST_F(LandmarkMatching, LeavesOutTheVehicle) {
+  cv::Mat seen(54, 108, CV_8UC1, cv::Scalar(255));
+  seen.colRange(54, 108).setTo(0);  // all to the right of the picture's middle
+  matcher.set_seen(seen);
+  const auto match = pass(place(3));
+  ASSERT_EQ(match.state, MatchState::kLocked) << match.reason;
+  EXPECT_FALSE(match.points.empty());
+  for (const auto& point : match.points) EXPECT_LT(point.bearing.x(), 0.0);
+}
+
 TEST_F(LandmarkMatching, ComparesOnlyTheMostSimilarOnesOfMany) {
   MatchingParameters parameters;
   parameters.max_compared = 2;

@@ -38,6 +38,8 @@ inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoLeftCameraInfo{"ster
 inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoRightCameraInfo{"stereo/right/camera_info",
                                                                             qos::kSensorData};
 inline constexpr Topic<sensor_msgs::msg::Image> kPanorama{"panorama/image", qos::kSensorData};
+/// Where the panorama shows the vehicle itself: mono8, few pixels for the whole panorama; 0: the vehicle.
+inline constexpr Topic<sensor_msgs::msg::Image> kVehicleMask{"panorama/vehicle_mask", qos::kLatched};
 /// Raw images of the heads of a panoramic camera; the stitcher makes the panorama from them.
 inline constexpr std::array<Topic<sensor_msgs::msg::Image>, 6> kPanoramaHeadImageRaw{
     {{"panorama/head_0/image_raw", qos::kSensorData},

@@ -78,6 +78,9 @@ class LandmarkBuilder {
   using PoseOf = std::function<std::optional<Eigen::Isometry3d>(std::int64_t stamp_ns)>;
   void set_poses(const PoseOf& odom_from_base);
 
+  /// Keypoints are not taken from what the vehicle covers: 0 in `seen` (CV_8UC1, any size, for the whole panorama).
+  void set_seen(const cv::Mat& seen) { seen_ = seen; }
+
   /// Adds or moves a landmark, e.g. of an earlier journey; position in the map, m.
   void set_landmark(std::uint32_t id, const Eigen::Vector2d& position) { rule_.set_landmark(id, position); }
   /// Reports that a landmark is of an earlier run.
@@ -114,6 +117,7 @@ class LandmarkBuilder {
   JunctionView view_;
   Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<Kept> kept_;
+  cv::Mat seen_;  // for keypoints; empty: all of the panorama
   std::optional<Eigen::Vector3d> last_position_;
   double travelled_m_ = 0.0;
 };

@@ -35,8 +35,8 @@ struct KeypointParameters {
 
 /// SIFT features of a panorama (CV_8UC1 or CV_8UC3, 2:1), strongest first, with bearings in the panorama frame. The
 /// band is padded across the seam, so features there are found like any other. Throws std::invalid_argument for an
-/// image that is empty, of another type or not 2:1. `mask`: CV_8UC1 of 1080x540, 0 where no keypoint may lie or reach (the vehicle's
-/// body, parts that the camera does not see); empty: none.
+/// image that is empty, of another type or not 2:1. `mask`: CV_8UC1 of any size for the whole panorama, 0 where no
+/// keypoint may lie or reach (the vehicle's body, parts that the camera does not see); empty: none.
 std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointParameters& parameters,
                                        const cv::Mat& mask = {});
 

@@ -55,6 +55,10 @@ class PanoramicCompass {
   std::optional<AzimuthChange> track(std::int64_t stamp_ns, const cv::Mat& panorama,
                                      std::optional<double> expected_turn_rad = std::nullopt);
 
+  /// From now on, ignores what the vehicle covers: 0 in `seen` (CV_8UC1, any size, for the whole panorama). Method
+  /// `two_patches` does not.
+  void set_seen(const cv::Mat& seen);
+
   /// From now on, points() has the points of the reference before, too.
   void keep_earlier_points();
 

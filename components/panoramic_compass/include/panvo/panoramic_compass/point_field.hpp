@@ -35,14 +35,21 @@ struct FoundPoint {
   Eigen::Vector2d variance_px2 = Eigen::Vector2d::Zero();  ///< of `now`
 };
 
+/// Whether a place in a band is not covered by the vehicle: 0 in `seen`, as large as the band; empty: nothing is.
+bool is_seen(const cv::Mat& seen, const Eigen::Vector2d& in_band);
+
 /// Corners on all sides of a reference panorama, tracked in the following panoramas by patch alignment.
 class PointField {
  public:
   PointField() = default;
-  /// Takes the best corner of each cell, except in the sky, because clouds drift.
-  PointField(const RoundBand& reference, const PointParameters& parameters);
+  /// Takes the best corner of each cell, except in the sky, because clouds drift, and where the vehicle covers the view:
+  /// 0 in `seen`, as large as the band; may be empty.
+  PointField(const RoundBand& reference, const PointParameters& parameters, const cv::Mat& seen = {});
 
   std::size_t size() const { return points_.size(); }
+
+  /// Drops the points that the vehicle covered in the reference.
+  void keep_seen(const cv::Mat& seen);
 
   /// Expected magnification from the reference at `then` to the current panorama at `now`; px in the band.
   using Magnification = std::function<double(const Eigen::Vector2d& then, const Eigen::Vector2d& now)>;

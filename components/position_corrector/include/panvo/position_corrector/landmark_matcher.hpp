@@ -129,6 +129,9 @@ class LandmarkMatcher {
   /// has left it. Landmarks added before the first panorama are from earlier journeys.
   void added(std::uint32_t id);
 
+  /// Keypoints are not taken from what the vehicle covers: 0 in `seen` (CV_8UC1, any size, for the whole panorama).
+  void set_seen(const cv::Mat& seen) { seen_ = seen; }
+
   /// Processes frames in order of stamps.
   LandmarkMatch match(const PanoramaFrame& frame, const landmarks::LandmarkLibrary& library);
 
@@ -179,6 +182,7 @@ class LandmarkMatcher {
   double travelled_m_ = 0.0;
   std::map<std::uint32_t, double> seen_at_m_;  ///< path length at which a landmark was last built or matched
   std::optional<Lock> lock_;
+  cv::Mat seen_;  // for keypoints; empty: all of the panorama
 };
 
 }  // namespace panvo::position_corrector
