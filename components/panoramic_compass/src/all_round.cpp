@@ -39,8 +39,9 @@ double magnified(double sine_then, double sine_now) {
   return std::clamp(sine_now / sine_then, 1.0 / kMaxMagnified, kMaxMagnified);
 }
 
-/// Lower bound of the sky's grey level; 256 if the overhead region is not brighter than the band.
-double darkest_sky(const cv::Mat& panorama, const cv::Mat& band) {
+/// Lower bound of the sky's grey level; 256 if the overhead region is brighter neither than the band nor than the
+/// `ground`, its lowest rows: a band with clouds over open land is brighter than the blue sky above.
+double darkest_sky(const cv::Mat& panorama, const cv::Mat& band, const cv::Mat& ground) {
   constexpr int kStep = 12;
   std::vector<int> overhead;
   for (int row = 0; row < kZenithShare * panorama.rows; row += kStep) {
@@ -51,7 +52,8 @@ double darkest_sky(const cv::Mat& panorama, const cv::Mat& band) {
   }
   const auto low = overhead.begin() + static_cast<std::ptrdiff_t>(kSkyQuantile * static_cast<double>(overhead.size()));
   std::nth_element(overhead.begin(), low, overhead.end());
-  return *low > cv::mean(band)[0] ? kSkyShare * *low : 256.0;
+  const double least = std::min(cv::mean(band)[0], cv::mean(ground)[0]);
+  return *low > least ? kSkyShare * *low : 256.0;
 }
 
 /// Interpolates grey levels of a full turn between the columns that are seen.
@@ -124,7 +126,8 @@ class AllRound final : public PanoramicCompass::Method {
   cv::Mat prepare(const cv::Mat& panorama) {
     const vision::Stage stage(observer_, "prepare");
     cv::Mat band = cutter_.cut(panorama);
-    now_ = RoundBand(band, darkest_sky(panorama, band));
+    const int horizon = std::clamp(BandCutter::kRows / 2 - cutter_.first_row, 0, band.rows - 1);
+    now_ = RoundBand(band, darkest_sky(panorama, band, band.rowRange(horizon, band.rows)));
     const cv::Mat& half = now_.pyramid[1];
     const int margin = RoundBand::kMargin_px / kScale;
     features_.emplace(sectors_.prepare(uncovered(half.colRange(margin, margin + band.cols / kScale))));
@@ -245,7 +248,8 @@ class AllRound final : public PanoramicCompass::Method {
 
   /// The effect of systematic errors on the direction of motion is inversely proportional to the parallax.
   static double motion_variance(const TurnFit& fit, double systematic_rad) {
-    const double by_systematic = systematic_rad / std::max(fit.typical_parallax, systematic_rad);
+    const double parallax = std::max(fit.typical_parallax, fit.near_parallax);
+    const double by_systematic = systematic_rad / std::max(parallax, systematic_rad);
     return fit.drift_azimuth_variance_rad2 + by_systematic * by_systematic;
   }
 

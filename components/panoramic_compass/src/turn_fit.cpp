@@ -28,6 +28,7 @@ constexpr double kFirstNoise = 1600.0,
 constexpr int kSectors = 16;
 constexpr double kSettled_rad = 1e-6;
 constexpr double kLossScale = 2.0;       // standard deviations
+constexpr double kBeside = 0.3;          // sine: ahead and behind, parallax tells no distance
 constexpr double kAgrees = 3.0;          // standard deviations
 constexpr double kMaxNoise = 9.0;        // of the stated variances: points farther off are outliers
 constexpr double kNearPole = 0.05;       // sine: nearer to the drift direction, the great circle is undefined
@@ -149,7 +150,7 @@ class Solver {
       if (!d) continue;
       deviations_.push_back(*d);
       across.push_back(d->across * d->across / d->across_variance);
-      if (d->sine > 0.3) parallax.push_back(std::abs(d->along) / d->sine);
+      if (d->sine > kBeside) parallax.push_back(std::abs(d->along) / d->sine);
     }
     // 0.455: median of a squared standard normal variable
     noise_ = across.empty() ? 1.0 : std::max(1.0, vision::median(across) / 0.455);
@@ -288,13 +289,18 @@ std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen:
   fit.drift = best.drift;
   fit.yaw_rad = std::atan2(best.rotation(0, 1), best.rotation(0, 0));
   fit.typical_parallax = solver.typical();
+  double parallax = 0.0, squared_parallax = 0.0;
   for (const BearingPair& pair : pairs) {
     const auto d = deviation_of(pair, best);
     const double allowed = std::min(solver.noise(), kMaxNoise);
     const bool agrees = !d || disagreement(*d, allowed) < kAgrees * kAgrees;
     fit.agrees.push_back(agrees);
     fit.agreeing += agrees ? 1 : 0;
+    if (!d || !agrees || d->sine < kBeside) continue;
+    parallax += std::abs(d->along) / d->sine;
+    squared_parallax += std::pow(d->along / d->sine, 2);
   }
+  if (parallax > 0.0) fit.near_parallax = 0.5 * squared_parallax / parallax;
   const Matrix5d by_points = solver.hessian().inverse(), by_sectors = solver.covariance_by_sectors(best);
   const auto variance_of = [&](Eigen::Index i) {
     return std::max(by_points(i, i), 0.5 * (by_points(i, i) + by_sectors(i, i)));

@@ -310,6 +310,31 @@ TEST(PointsAllRound, DoNotFollowTheSky) {
   EXPECT_NEAR(turn.change_rad, 8.0 * kColumn_rad, 0.1 * kColumn_rad);
 }
 
+TEST(PointsAllRound, DoNotFollowTheCloudsOfOpenLand) {
+  cv::Mat land(kRows, kColumns, CV_8UC1, cv::Scalar(100));  // blue sky
+  land.rowRange(kRows / 2, kRows).setTo(cv::Scalar(85));
+  cv::RNG random(7);
+  for (int i = 0; i < 250; ++i) {  // trees and cars at the horizon
+    const cv::Rect object(random.uniform(0, kColumns), random.uniform(240, 275), random.uniform(4, 14), 12);
+    cv::rectangle(land, object, cv::Scalar(random.uniform(15, 70)), -1);
+  }
+  const auto view = [&](double turned_columns, int clouds_moved) {
+    cv::Mat clouds(kRows, kColumns, CV_8UC1, cv::Scalar(0));
+    cv::RNG same(11);
+    for (int i = 0; i < 120; ++i) {
+      const cv::Rect cloud(same.uniform(0, kColumns), same.uniform(60, 210), same.uniform(20, 60), same.uniform(8, 20));
+      for (const int round : {-kColumns, 0})
+        cv::rectangle(clouds, cloud + cv::Point(clouds_moved + round, 0), cv::Scalar(250), -1);
+    }
+    cv::Mat seen = cv::max(turned_left(land, turned_columns), clouds);
+    cv::GaussianBlur(seen, seen, cv::Size(5, 5), 1.0);
+    return seen;
+  };
+  const AzimuthChange turn = change_all_round(view(0.0, 0), view(8.0, 20));
+  EXPECT_TRUE(turn.valid) << turn.reason;
+  EXPECT_NEAR(turn.change_rad, 8.0 * kColumn_rad, 0.3 * kColumn_rad);
+}
+
 TEST(PointsAllRound, TurnAboutTheVehiclesAxisWhereTheCameraIsTilted) {
   const cv::Mat street = paint_panorama();
   // the camera looks left: turns are unaffected, the direction of motion changes

@@ -79,6 +79,20 @@ TEST(TurnFit, OfAStandingVehicleUsesAllThatThePointsTell) {
   ASSERT_TRUE(standing);
   EXPECT_NEAR(standing->yaw_rad, 0.01, 0.0002);
   EXPECT_LT(standing->typical_parallax, 0.001);
+  EXPECT_LT(standing->near_parallax, 0.001);
+}
+
+TEST(TurnFit, TellsTheDirectionFromTheFewNearPointsOfOpenLand) {
+  Scene scene(6);
+  const auto way = moved({1.0, 0.0, 0.0}, 0.05);
+  auto pairs = scene.pairs(20, way);
+  for (int i = 0; i < 180; ++i) pairs.push_back(scene.pair(1e5 * scene.direction(), way));
+  const auto fit = fit_turn(pairs, Eigen::Matrix3d::Identity());
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->yaw_rad, 0.05, 0.0005);
+  EXPECT_LT(fit->typical_parallax, 0.001);
+  EXPECT_GT(fit->near_parallax, 0.02);
+  EXPECT_GT(fit->drift.dot(-(fit->now_from_then * Eigen::Vector3d::UnitX())), 0.999);
 }
 
 TEST(TurnFit, LeavesOutAThirdThatMovesByItself) {

@@ -27,8 +27,11 @@ struct TurnFit {
   double drift_azimuth_variance_rad2 =
       1.0;                        ///< of the drift azimuth, from the agreement of the points; about 1 at standstill
   double typical_parallax = 0.0;  ///< rad, median of travelled distance / point distance
-  int agreeing = 0;               ///< number of agreeing points
-  std::vector<bool> agrees;       ///< per pair
+  double near_parallax =
+      0.0;           ///< rad, about half that of the nearer points, which tell the direction of travel even if most
+                     ///< points are far, as in open land
+  int agreeing = 0;  ///< number of agreeing points
+  std::vector<bool> agrees;  ///< per pair
 };
 
 /// Fits rotation and direction of motion to points at all azimuths and unknown distances. Each point must lie on the
