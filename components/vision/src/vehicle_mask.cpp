@@ -2,6 +2,7 @@
 #include "panvo/vision/vehicle_mask.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
@@ -17,7 +18,7 @@ namespace {
 constexpr int kCell_px = 5, kWindow_px = 7;  // of the reduced panorama: 5 degrees
 constexpr int kMargin_px = 8;                // at the seam, more than half a window
 // Two steps in turn, so that nothing that repeats, such as windows, looks as if it stayed in both.
-constexpr double kStep_rad[] = {1.5 * kDegree, 2.5 * kDegree};
+constexpr std::array kStep_rad{1.5 * kDegree, 2.5 * kDegree};
 constexpr std::int64_t kMaxApart_ns = 3 * kSecond_ns;  // slower turns may be drift of odometry
 constexpr float kMinEdge = 3.0F;  // rms, grey levels per px: above the noise of a camera and of JPEG
 constexpr float kSame = 0.9F, kStayed = 0.7F, kWent = 0.4F;  // correlation of edges
@@ -71,7 +72,7 @@ cv::Mat near_horizon(const cv::Mat& cells) { return cells.rowRange(kTopRow, kBot
 }  // namespace
 
 bool VehicleMask::wants(std::int64_t stamp_ns, double yaw_rad) const {
-  return is_too_old_at(stamp_ns) || std::abs(wrapped(yaw_rad - yaw_rad_)) >= kStep_rad[steps_ % 2];
+  return is_too_old_at(stamp_ns) || std::abs(wrapped(yaw_rad - yaw_rad_)) >= kStep_rad.at(steps_ % 2);
 }
 
 bool VehicleMask::is_too_old_at(std::int64_t stamp_ns) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
 
@@ -22,7 +23,7 @@ class VehicleMask {
   /// odometry says: nothing is learned from the pair.
   bool add(std::int64_t stamp_ns, const cv::Mat& panorama, double yaw_rad);
 
-  /// CV_8UC1, kRows x kColumns: 0 where the vehicle covers the view or the edge of it, else 255.
+  /// CV_8UC1, kRows x kColumns: 0 where the vehicle covers the view, else 255.
   const cv::Mat& seen() const noexcept { return seen_; }
 
  private:
@@ -32,7 +33,7 @@ class VehicleMask {
   cv::Mat edges_;  // of the panorama that was added last, CV_32FC1; empty: none was
   std::int64_t stamp_ns_ = 0;
   double yaw_rad_ = 0.0;
-  int steps_ = 0;
+  std::size_t steps_ = 0;
   cv::Mat stays_{kRows, kColumns, CV_8UC1, cv::Scalar(0)};  // points for turns in which a cell stayed
   cv::Mat seen_{kRows, kColumns, CV_8UC1, cv::Scalar(255)};
 };

@@ -50,5 +50,5 @@ export function preferredImage(topics: string[], kind: "left" | "panorama", isNe
       if (found !== undefined) return found;
     }
   }
-  return topics.find((topic) => topic.includes(kind));
+  return topics.find((topic) => topic.includes(kind) && !topic.endsWith("mask"));
 }

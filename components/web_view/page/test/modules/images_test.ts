@@ -55,4 +55,5 @@ test("rectified images are preferred, and beyond this machine compressed ones", 
   assert.equal(preferredImage(both, "panorama", true), "/panorama/image");
   assert.equal(preferredImage(["/panorama/image/compressed"], "panorama", true), "/panorama/image/compressed");
   assert.equal(preferredImage(["/front"], "left", false), undefined);
+  assert.equal(preferredImage(["/panorama/vehicle_mask"], "panorama", true), undefined);
 });
