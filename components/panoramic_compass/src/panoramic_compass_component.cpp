@@ -111,7 +111,7 @@ class PanoramicCompassComponent final : public runtime::Component {
 
   void learn_mask(std::int64_t stamp_ns, const cv::Mat& panorama) {
     if (!heading_ || std::abs(stamp_ns - heading_->stamp_ns) > kMaxApart_ns) return;
-    if (!mask_.wants(stamp_ns, heading_->yaw_rad)) return;
+    if (!mask_.wants(stamp_ns, heading_->yaw_rad) || find_fault(panorama)) return;
     if (mask_.add(stamp_ns, panorama, heading_->yaw_rad)) set_seen(mask_.seen());
   }
 
@@ -140,7 +140,7 @@ class PanoramicCompassComponent final : public runtime::Component {
       return tell({.from_stamp_ns = *before_ns, .stamp_ns = stamp_ns, .reason = "the panorama " + *fault},
                   message.header().frame_id());
     }
-    if (!find_fault(*panorama)) learn_mask(stamp_ns, *panorama);
+    learn_mask(stamp_ns, *panorama);
     const bool has_point_reader = context_.has_reader(topics::kPanoramaPoints);
     if (has_point_reader) compass_->keep_earlier_points();
     const auto change = compass_->track(stamp_ns, *panorama);

@@ -24,6 +24,7 @@ constexpr float kMinEdge = 3.0F;  // rms, grey levels per px: above the noise of
 constexpr float kSame = 0.9F, kStayed = 0.7F, kWent = 0.4F;  // correlation of edges
 constexpr int kMostStays = 10;                               // points: two for the same, one for what stayed
 constexpr int kCovered = 4, kUncovered = 2;                  // points: chance rarely repeats at one place
+constexpr double kMaxShare = 0.6;                            // of the band near the horizon that a vehicle covers
 constexpr int kHorizon = VehicleMask::kRows / 2;
 constexpr int kTopRow = kHorizon - 12, kBottomRow = kHorizon + 3;  // 40 degrees above the horizon to 10 below
 

@@ -17,7 +17,7 @@
 #include "participant_qos.hpp"
 #include "security_qos.hpp"
 #include "sensor_msgs/msg/Image.h"
-#include "shared_segment.hpp"
+#include "shared_memory.hpp"
 
 namespace panvo::runtime::dds {
 

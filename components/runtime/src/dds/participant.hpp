@@ -21,7 +21,7 @@
 #include "panvo/runtime/bridge.hpp"
 #include "participant_qos.hpp"
 #include "same_host.hpp"
-#include "shared_segment.hpp"
+#include "shared_memory.hpp"
 
 namespace panvo::runtime::dds {
 

@@ -13,7 +13,7 @@
 #include "participant_qos.hpp"
 #include "remote_only_filter.hpp"
 #include "sample_data_type.hpp"
-#include "shared_segment.hpp"
+#include "shared_memory.hpp"
 
 namespace panvo::runtime::dds {
 

@@ -14,7 +14,7 @@
 
 #include "bridge_fixture.hpp"
 #include "dds/image_sharing.hpp"
-#include "dds/shared_segment.hpp"
+#include "dds/shared_memory.hpp"
 #include "panvo/runtime/shm_leftovers.hpp"
 #include "sensor_msgs/msg/Image.h"
 

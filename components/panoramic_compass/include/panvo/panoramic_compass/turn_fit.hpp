@@ -27,10 +27,10 @@ struct TurnFit {
   double drift_azimuth_variance_rad2 =
       1.0;                        ///< of the drift azimuth, from the agreement of the points; about 1 at standstill
   double typical_parallax = 0.0;  ///< rad, median of travelled distance / point distance
-  double near_parallax =
-      0.0;           ///< rad, about half that of the nearer points, which tell the direction of travel even if most
-                     ///< points are far, as in open land
-  int agreeing = 0;  ///< number of agreeing points
+  /// About half that of the nearer points, rad: they tell the direction of travel even if most points are far, as in
+  /// open land.
+  double near_parallax = 0.0;
+  int agreeing = 0;          ///< number of agreeing points
   std::vector<bool> agrees;  ///< per pair
 };
 

@@ -12,7 +12,6 @@ namespace panvo::vision {
 class VehicleMask {
  public:
   static constexpr int kColumns = 108, kRows = 54;  ///< cells of 3.3 degrees
-  static constexpr double kMaxShare = 0.6;          ///< of the band near the horizon that a vehicle covers
 
   /// Whether the vehicle has turned enough since the panorama that was added last, or that one is too old. `yaw_rad`: by
   /// odometry.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shared_segment.hpp"
+#include "shared_memory.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
