@@ -3,14 +3,43 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/videodev2.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 namespace panvo::v4l2_camera::kernel {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path usb_interface_of(int descriptor) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0) return {};
+  std::error_code error;
+  const fs::path folder = fs::canonical(
+      fmt::format("/sys/dev/char/{}:{}/device", major(status.st_rdev), minor(status.st_rdev)), error);
+  if (error || !fs::exists(folder / "bInterfaceNumber", error)) return {};
+  return folder;
+}
+
+/// The kernel deletes the folder of a USB interface after its driver has released the camera.
+void wait_until_deleted(const fs::path& folder) {
+  constexpr auto kMax = std::chrono::seconds(1);
+  constexpr auto kStep = std::chrono::milliseconds(5);
+  const auto give_up = std::chrono::steady_clock::now() + kMax;
+  std::error_code error;
+  while (fs::exists(folder, error) && std::chrono::steady_clock::now() < give_up) std::this_thread::sleep_for(kStep);
+}
+
+}  // namespace
 
 DeviceError error_of(const std::string& node, const char* operation, int code) {
   using Kind = DeviceError::Kind;
@@ -44,9 +73,20 @@ DeviceError error_of(const std::string& node, const char* operation, int code) {
 DeviceFile::DeviceFile(std::string node)
     : node_(std::move(node)), descriptor_(open(node_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)) {
   if (descriptor_ < 0) throw error_of(node_, "open", errno);
+  usb_interface_ = usb_interface_of(descriptor_);
 }
 
-DeviceFile::~DeviceFile() { close(descriptor_); }
+// Linux 6.1 kills the thread that closes a camera while the camera is being removed: v4l2_device_release and
+// media_device_unregister, which both unregister its media entity, are not protected from each other.
+DeviceFile::~DeviceFile() {
+  if (!usb_interface_.empty() && is_removed()) wait_until_deleted(usb_interface_);
+  close(descriptor_);
+}
+
+bool DeviceFile::is_removed() const {
+  v4l2_capability capability{};
+  return !try_request(VIDIOC_QUERYCAP, &capability) && errno == ENODEV;
+}
 
 bool DeviceFile::try_request(unsigned long code, void* argument) const {
   int result = 0;

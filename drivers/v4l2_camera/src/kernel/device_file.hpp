@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "panvo/v4l2_camera/video_device.hpp"
@@ -17,6 +18,7 @@ DeviceError error_of(const std::string& node, const char* operation, int code);
 class DeviceFile {
  public:
   explicit DeviceFile(std::string node);
+  /// If the camera is unplugged, waits until the kernel has removed it, at most 1 s.
   ~DeviceFile();
   DeviceFile(const DeviceFile&) = delete;
   DeviceFile& operator=(const DeviceFile&) = delete;
@@ -30,8 +32,11 @@ class DeviceFile {
   int descriptor() const noexcept { return descriptor_; }
 
  private:
+  bool is_removed() const;
+
   std::string node_;
   int descriptor_;
+  std::filesystem::path usb_interface_;  // its folder in sysfs; empty: not a USB camera
 };
 
 /// The text in a field of fixed size.
