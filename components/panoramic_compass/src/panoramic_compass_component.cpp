@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <stdexcept>
@@ -65,21 +66,17 @@ class PanoramicCompassComponent final : public runtime::Component {
         points_(context.output(topics::kPanoramaPoints)),
         mask_output_(context.output(topics::kVehicleMask)),
         transforms_(context) {
-    context.input(topics::kPanorama, [this](const auto& message) { on_panorama(*message); });
+    context.input(topics::kPanorama, [this](const auto& message) { on_panorama(message); });
     make_compass(upright_base_from_panorama());
     if (!parameters_.vehicle_mask.empty()) {
       set_seen(read_mask());
     } else if (parameters_.learn_vehicle_mask) {
+      learns_ = true;
       context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     }
   }
 
  private:
-  struct Heading {
-    std::int64_t stamp_ns;
-    double yaw_rad;
-  };
-
   static constexpr std::int64_t kMaxApart_ns = 500'000'000;  // heading and panorama: a vehicle turns by some degrees
 
   void make_compass(const Eigen::Matrix3d& base_from_panorama) {
@@ -102,17 +99,27 @@ class PanoramicCompassComponent final : public runtime::Component {
     return vision::to_cells(mask);
   }
 
+  /// A panorama's heading is the first one at or after its stamp, so that a live run learns as its replay does.
   void on_odometry(const nav_msgs::msg::Odometry& message) {
     const auto pose = conversions::to_isometry(message.pose().pose());
-    if (!pose) return;
+    if (!pose || !to_learn_ || conversions::stamp_ns(message) < conversions::stamp_ns(*to_learn_)) return;
+    const auto panorama_message = std::exchange(to_learn_, nullptr);
+    const std::int64_t stamp_ns = conversions::stamp_ns(*panorama_message);
+    if (conversions::stamp_ns(message) - stamp_ns > kMaxApart_ns) return;
     const Eigen::Vector3d ahead = pose->linear().col(0);
-    heading_ = Heading{conversions::stamp_ns(message), std::atan2(ahead.y(), ahead.x())};
+    const double yaw_rad = std::atan2(ahead.y(), ahead.x());
+    if (!mask_.wants(stamp_ns, yaw_rad)) return;
+    const auto panorama = conversions::grey_or_bgr(*panorama_message);
+    if (find_fault(*panorama)) return;
+    if (mask_.add(stamp_ns, *panorama, yaw_rad)) set_seen(mask_.seen());
   }
 
-  void learn_mask(std::int64_t stamp_ns, const cv::Mat& panorama) {
-    if (!heading_ || std::abs(stamp_ns - heading_->stamp_ns) > kMaxApart_ns) return;
-    if (!mask_.wants(stamp_ns, heading_->yaw_rad) || find_fault(panorama)) return;
-    if (mask_.add(stamp_ns, panorama, heading_->yaw_rad)) set_seen(mask_.seen());
+  /// Waits for a heading, unless an earlier one does.
+  void learn_from(const std::shared_ptr<const sensor_msgs::msg::Image>& message) {
+    if (!learns_) return;
+    const bool is_waited_for =
+        to_learn_ && conversions::stamp_ns(*message) - conversions::stamp_ns(*to_learn_) <= kMaxApart_ns;
+    if (!is_waited_for) to_learn_ = message;
   }
 
   void set_seen(const cv::Mat& seen) {
@@ -123,7 +130,8 @@ class PanoramicCompassComponent final : public runtime::Component {
     mask_output_.publish(message);
   }
 
-  void on_panorama(const sensor_msgs::msg::Image& message) {
+  void on_panorama(const std::shared_ptr<const sensor_msgs::msg::Image>& shared) {
+    const sensor_msgs::msg::Image& message = *shared;
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
       return context_.log().warn_throttled("stamp", "{}: stamp not later than the previous one; panorama skipped",
@@ -140,7 +148,7 @@ class PanoramicCompassComponent final : public runtime::Component {
       return tell({.from_stamp_ns = *before_ns, .stamp_ns = stamp_ns, .reason = "the panorama " + *fault},
                   message.header().frame_id());
     }
-    learn_mask(stamp_ns, *panorama);
+    learn_from(shared);
     const bool has_point_reader = context_.has_reader(topics::kPanoramaPoints);
     if (has_point_reader) compass_->keep_earlier_points();
     const auto change = compass_->track(stamp_ns, *panorama);
@@ -188,7 +196,8 @@ class PanoramicCompassComponent final : public runtime::Component {
   Eigen::Matrix3d base_from_panorama_;
   vision::PanoramaWatch watch_;
   std::optional<PanoramicCompass> compass_;
-  std::optional<Heading> heading_;  // latest
+  bool learns_ = false;
+  std::shared_ptr<const sensor_msgs::msg::Image> to_learn_;  // until its heading is known
   vision::VehicleMask mask_;
   cv::Mat seen_;  // empty: nothing is known of the vehicle
   std::optional<std::int64_t> last_stamp_ns_;

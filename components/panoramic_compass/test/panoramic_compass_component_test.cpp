@@ -45,7 +45,7 @@ class PanoramicCompassComponent : public testing::Test {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.rotate(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
     nav_msgs::msg::Odometry odometry;
-    odometry.header().stamp(conversions::to_stamp((frames + 1) * kPeriod_ns));
+    odometry.header().stamp(conversions::to_stamp(frames * kPeriod_ns + 1'000'000));  // just after the last panorama
     odometry.pose().pose(conversions::to_pose(pose));
     harness.publish(topics::kOdometryBinocular, odometry);
   }
@@ -55,8 +55,8 @@ class PanoramicCompassComponent : public testing::Test {
     for (double columns = 0.0; columns < 90.0; columns += 9.0) {
       cv::Mat view = turned_left(street, columns);
       mast.colRange(400, 500).copyTo(view.colRange(400, 500));
-      publish_heading(columns * kColumn_rad);
       publish(view);
+      publish_heading(columns * kColumn_rad);
     }
   }
 
