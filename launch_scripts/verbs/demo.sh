@@ -165,6 +165,7 @@ show_results() {
 
 Results in $out
 $(result_line 'page' "$out/report.html")
+$(result_line 'drive' "$out/drive.html")
 $(result_line 'plot' "$out/evaluation.png")
 $(result_line 'paths' "$out/odometry_enhanced.tum")
 $(result_line '' "$out/odometry_binocular.tum")

@@ -33,6 +33,7 @@ usage: panvo evaluate journey RECORDING [--out DIR] [--library FILE] [--set C.P=
 RUN is a run folder, or a bag of a run (see panvo evaluate --help).
 Replays RECORDING through the system enhanced_vo, without panoramas stereo_places, or reads an existing run, and reports the error before and
 after each revisit, the errors of both trajectories, and the time each stage took: as tables and in report.html.
+drive.html is the page of 'panvo view' with this drive, its pictures, and a cursor that moves along it.
 
   --run RUN        evaluate this run of RECORDING instead of a new one
   --library FILE   landmark library of an earlier journey (landmark_store.file); new landmarks are added to it. Also name that

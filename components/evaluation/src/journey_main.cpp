@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "panvo/evaluation/drive_page.hpp"
 #include "panvo/evaluation/input_error.hpp"
 #include "panvo/evaluation/journey_evaluation.hpp"
 #include "panvo/evaluation/journey_page.hpp"
@@ -44,7 +45,8 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "for a second journey: recording that built the landmark library; its start is the origin of the map");
   app.add_option("--paper-run", arguments.paper_run,
                  "run of the same recording with the paper's own correction, for comparison");
-  app.add_option("--out", arguments.out, "folder for report.html, journey.json and pictures (default: the run folder)");
+  app.add_option("--out", arguments.out,
+                 "folder for report.html, drive.html, journey.json and pictures (default: the run folder)");
   app.add_option("--title", arguments.title, "title (default: names of recording and run)");
   app.add_option("--video", arguments.video,
                  "also write a video of the drive to this file (.mp4, .webm); needs ffmpeg");
@@ -57,6 +59,17 @@ void describe(CLI::App& app, Arguments& arguments) {
 std::string default_title(const JourneyRun& run, const JourneyRecording& recording) {
   const auto name = fs::weakly_canonical(recording.folder).filename().string();
   return name == run.name ? name : name + ", run " + run.name;
+}
+
+void write_drive_page(const JourneyReport& report, const fs::path& file) {
+  const auto page = live_page_folder();
+  if (page.empty()) {
+    std::cout << "left out: drive.html, because the page of the web view was not built (panvo setup page)\n";
+    return;
+  }
+  write_output(file, drive_page(report, page));
+  std::cout << "written: " << file.string() << " (the live page, with a cursor that moves along the drive)\n"
+            << std::flush;
 }
 
 int run(const Arguments& arguments) {
@@ -85,6 +98,7 @@ int run(const Arguments& arguments) {
   write_output(folder / "report.html", journey_page(report));
   std::cout << "\nwritten: " << (folder / "report.html").string() << " (opens in any browser), journey.json\n"
             << std::flush;
+  write_drive_page(report, folder / "drive.html");
   draw_journey(report, folder);
   if (!arguments.video.empty()) {
     write_video(report.run, arguments.video, arguments.video_speed);

@@ -38,10 +38,15 @@ RunAzimuth azimuth_of(const CsvRow& row) {
   return {row.integer(0), row.integer(1), is_valid ? row.optional_number(2) : std::nullopt};
 }
 
-RunQuality quality_of(const CsvRow& row) { return {row.integer(0), row.flag(1)}; }
+RunQuality quality_of(const CsvRow& row) { return {row.integer(0), row.flag(1), row.integer(2), row.integer(3)}; }
 
 RunState state_of(const CsvRow& row) {
   return {row.integer(0), row.text(1), row.text(2), row.optional_number(3), row.optional_number(4)};
+}
+
+RunIntegrity integrity_of(const CsvRow& row) {
+  return {row.integer(0),         row.flag(1),           row.text(2), row.optional_number(3),
+          row.optional_number(4), row.optional_number(5)};
 }
 
 template <class Entry>
@@ -127,9 +132,11 @@ JourneyRun read_journey_run(const fs::path& folder) {
   forgive_sightings(run);
   read_table(run.azimuths, run, "azimuth.csv", {"stamp_ns", "from_stamp_ns", "azimuth_change_rad", "valid"},
              azimuth_of);
-  read_table(run.qualities, run, "quality.csv", {"stamp_ns", "reliable"}, quality_of);
+  read_table(run.qualities, run, "quality.csv", {"stamp_ns", "reliable", "tracked", "inliers"}, quality_of);
   read_table(run.states, run, "states.csv", {"stamp_ns", "state", "reason", "position_sigma_m", "heading_sigma_rad"},
              state_of);
+  read_table(run.integrity, run, "integrity.csv", {"stamp_ns", "usable", "reason", "risk", "hpl_m", "alert_limit_m"},
+             integrity_of);
   if (const auto file = folder / "timing.json"; fs::exists(file)) {
     run.times = read_timing(file);
   } else {

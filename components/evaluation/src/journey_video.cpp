@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "drive_map.hpp"
+#include "left_images.hpp"
 #include "panorama_pair.hpp"
-#include "panvo/dataset_player/dataset.hpp"
 #include "panvo/evaluation/input_error.hpp"
 #include "video_encoder.hpp"
 
@@ -58,16 +58,6 @@ auto latest(const Items& items, std::int64_t stamp_ns) {
 }
 
 double horizontal_m(const PoseError& error) { return error.translation_m.head<2>().norm(); }
-
-/// The left images of the recording; none if it has none.
-std::vector<dataset_player::StereoFrame> left_images(const JourneyRecording& recording) {
-  try {
-    auto dataset = dataset_player::open_dataset(recording.folder);
-    return dataset.stereo ? std::move(dataset.stereo->frames) : std::vector<dataset_player::StereoFrame>{};
-  } catch (const dataset_player::DatasetError&) {
-    return {};  // a run folder, or a trajectory
-  }
-}
 
 /// A recognised place: the panorama of its landmark, turned to the vehicle's heading.
 struct Recognised {

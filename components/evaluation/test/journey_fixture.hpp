@@ -128,6 +128,10 @@ class MadeJourney : public ::testing::Test {
                   fmt::format("stamp_ns,state,position_sigma_m,heading_sigma_rad,reason\n{},tracking,0.1,0.01,\"\"\n"
                               "{},compass_only,0.2,,\"few features, \"\"all\"\" moving\"\n",
                               stamp(0), stamp(41)));
+    folder_.write("run/integrity.csv",
+                  fmt::format("stamp_ns,usable,reason,risk,hpl_m,alert_limit_m\n{},1,\"\",0.001,0.5,2\n{},0,\"lost\","
+                              "0.001,,2\n",
+                              stamp(0), stamp(1)));
     folder_.write("run/timing.json",
                   R"({"components": {"landmark_builder": {"stages": {"junction": {"count": 4,
             "wall_ms": {"mean": 8, "median": 7.5, "p95": 9, "p99": 10, "max": 11},

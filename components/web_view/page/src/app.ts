@@ -6,6 +6,7 @@ import type { Happening, Order } from "./link/events.ts";
 import { initialPose } from "./link/initial_pose.ts";
 import { MapView } from "./map/map.ts";
 import { Drive } from "./model/drive.ts";
+import { panoramaFrame, playInto, type RecordedDrive } from "./model/recorded_drive.ts";
 import { restoreSnapshot, takeSnapshot, type Snapshot } from "./model/snapshot.ts";
 import { ActionsPanel } from "./panels/actions_panel.ts";
 import { ConnectionPanel } from "./panels/connection_panel.ts";
@@ -30,6 +31,7 @@ export class App {
   send: (order: Order) => void = () => {}; // to the connection
   #poseCame_ms = performance.now();
   #isLive = false;
+  #isRecorded = false;
   #server = "";
   #calls = new Map<number, { resolve: (response: unknown) => void; reject: (error: Error) => void }>();
   #call = (service: string, request: unknown): Promise<unknown> =>
@@ -49,6 +51,7 @@ export class App {
   #timeline = new Timeline(byId("time"), this.drive, (time) => {
     this.map.cursor_s = time;
     this.map.draw();
+    if (this.#isRecorded) this.cameras.showAt(time);
   });
   #events = new EventsPanel(byId("events"), this.drive, ({ at }) => at && this.#showOnMap(at));
   #system = new SystemPanel(byId("components"), this.drive);
@@ -131,10 +134,31 @@ export class App {
       image.src = url;
     }
     this.connection.snapshot(snapshot.taken);
-    byId("snapshot-button").hidden = true;
     setText(this.cameras.empty, "No image was received before the snapshot.");
+    this.#showWhole();
+  }
+
+  /** A drive that has ended: the cursor of the time line moves along it. */
+  showRecorded(recorded: RecordedDrive): void {
+    this.#isRecorded = this.#timeline.staysAt = true;
+    playInto(this.drive, recorded);
+    this.cameras.keep(recorded.pictures, panoramaFrame);
+    this.cameras.showAt(undefined);
+    this.connection.recorded(recorded.title);
+    this.#timeline.choose(Infinity);
+    this.#showWhole();
+  }
+
+  #showWhole(): void {
+    byId("snapshot-button").hidden = true;
     this.update();
     this.map.fit();
+  }
+
+  /** Back or on by tens of seconds in a bag, by seconds in a recorded drive. */
+  jump(steps: number): void {
+    if (this.#isRecorded) this.#timeline.step(steps);
+    else this.player.jump(10 * steps);
   }
 
   async takeSnapshot(): Promise<void> {

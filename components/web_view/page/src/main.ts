@@ -3,14 +3,17 @@ import { App } from "./app.ts";
 import type { Happening, Order } from "./link/events.ts";
 import { byId } from "./ui/dom.ts";
 import { listenForShortcuts } from "./ui/shortcuts.ts";
-import { includedSnapshot } from "./ui/snapshot_file.ts";
+import { includedDrive, includedSnapshot } from "./ui/snapshot_file.ts";
 
 const app = new App();
 const snapshot = includedSnapshot();
+const recorded = includedDrive();
 const help = byId<HTMLDialogElement>("help");
 
 if (snapshot) {
   app.show(snapshot);
+} else if (recorded) {
+  app.showRecorded(recorded);
 } else {
   const worker = new Worker("worker.js");
   worker.onmessage = ({ data }: { data: Happening }) => app.on(data);
@@ -28,8 +31,8 @@ listenForShortcuts({
   p: () => app.mapPanel.togglePlace(),
   s: () => void app.takeSnapshot(),
   " ": () => void app.player.toggle(),
-  ",": () => app.player.jump(-10),
-  ".": () => app.player.jump(10),
+  ",": () => app.jump(-1),
+  ".": () => app.jump(1),
   "<": () => app.player.faster(-1),
   ">": () => app.player.faster(1),
   "?": () => help.showModal(),

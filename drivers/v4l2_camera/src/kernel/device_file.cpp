@@ -24,8 +24,8 @@ fs::path usb_interface_of(int descriptor) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) return {};
   std::error_code error;
-  const fs::path folder = fs::canonical(
-      fmt::format("/sys/dev/char/{}:{}/device", major(status.st_rdev), minor(status.st_rdev)), error);
+  const fs::path folder =
+      fs::canonical(fmt::format("/sys/dev/char/{}:{}/device", major(status.st_rdev), minor(status.st_rdev)), error);
   if (error || !fs::exists(folder / "bInterfaceNumber", error)) return {};
   return folder;
 }

@@ -59,6 +59,16 @@ struct RunAzimuth {
 struct RunQuality {
   std::int64_t stamp_ns = 0;
   bool reliable = true;
+  std::int64_t tracked = 0, inliers = 0;
+};
+
+struct RunIntegrity {
+  std::int64_t stamp_ns = 0;
+  bool usable = true;
+  std::string reason;
+  std::optional<double> risk;
+  std::optional<double> protection_level_m;  ///< horizontal; nullopt: unknown
+  std::optional<double> alert_limit_m;       ///< nullopt: none
 };
 
 struct RunState {
@@ -92,6 +102,7 @@ struct JourneyRun {
   std::vector<RunAzimuth> azimuths;
   std::vector<RunQuality> qualities;
   std::vector<RunState> states;
+  std::vector<RunIntegrity> integrity;
   StageTimes times;
   std::optional<RunFacts> facts;
   std::vector<std::string> missing;  ///< names of missing files

@@ -3,11 +3,13 @@
 import type { Happening } from "../link/events.ts";
 import { imageTypes, preferredImage } from "../link/roles.ts";
 import type { Drive } from "../model/drive.ts";
+import { momentOf } from "../model/moment.ts";
 import { clock, h, setText } from "../ui/dom.ts";
 import { FeatureLegend, drawFeatures } from "./features.ts";
 import { shiftOf, sidesOf, ticksOf } from "./heading_tape.ts";
 import { MatchLines, linesBetween, shownIn } from "./match_lines.ts";
 import { Picture } from "./picture.ts";
+import { RecordedPictures } from "./recorded_pictures.ts";
 import { Thumbnails } from "./thumbnails.ts";
 
 const matchAge_s = 0.7; // between the panorama that is shown and the one whose points are known
@@ -68,6 +70,8 @@ export class Cameras {
   #legend = new FeatureLegend();
   #drawnFeatures_s = NaN; // stamp of the image into which they are drawn
   #isVisible = true;
+  #recorded: RecordedPictures[] = [];
+  #cursor_s: number | undefined;
   readonly empty = h("p.empty", {}, "No camera publishes images.");
 
   constructor(
@@ -139,6 +143,20 @@ export class Cameras {
     this.empty.hidden = true;
   }
 
+  /** Pictures along a recorded drive, instead of topics. */
+  keep(pictures: Record<Kind, [time: number, jpeg: string][]>, panoramaFrame: string): void {
+    const kinds = ["left", "panorama"] as const;
+    this.#recorded = kinds.map((kind) => new RecordedPictures(pictures[kind], (picture) => this.restore(kind, picture, panoramaFrame)));
+    setText(this.empty, "The recording has no images.");
+  }
+
+  /** `time`: undefined: now. */
+  showAt(time: number | undefined): void {
+    this.#cursor_s = time;
+    for (const pictures of this.#recorded) pictures.show(time ?? Infinity);
+    this.update();
+  }
+
   get panoramaFrame(): string {
     return this.#panorama.frame;
   }
@@ -149,7 +167,7 @@ export class Cameras {
   }
 
   #updateTape(): void {
-    const pose = this.drive.pose;
+    const { pose } = momentOf(this.drive, this.#cursor_s);
     const { tape, frame, picture } = this.#panorama;
     if (!pose || picture.isEmpty) return;
     const centre = pose.yaw + (this.drive.yawOfFrame.get(frame) ?? 0);
@@ -178,12 +196,12 @@ export class Cameras {
   }
 
   #updatePlace(): void {
-    const { recognised, places, now } = this.drive;
-    const place = recognised && places.all.get(recognised.place);
+    const { recognised, time } = momentOf(this.drive, this.#cursor_s);
+    const place = recognised && this.drive.places.all.get(recognised.place);
     this.#placeElement.hidden = !place?.thumbnail;
     if (!recognised || !place?.thumbnail) return;
     const degrees = Math.round((Math.abs(recognised.heading) * 180) / Math.PI);
-    const since = now - recognised.time;
+    const since = time - recognised.time;
     setText(this.#placeCaption, `Place ${place.id}, ${since < 1 ? "seen now" : `seen ${clock(since)} ago`}, turned by ${degrees}°`);
     this.#placeElement.classList.toggle("past", since > 3);
     const key = `${place.id} ${recognised.heading.toFixed(3)}`;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Pose2 } from "./geometry.ts";
+import { wrapped, type Pose2 } from "./geometry.ts";
 
 export interface Bounds {
   left: number;
@@ -88,6 +88,19 @@ export class Path {
   exactly(time: number): Pose2 | undefined {
     const index = this.indexAt(time + 1e-3);
     return index >= 0 && Math.abs(this.times[index]! - time) < 2e-3 ? this.at(index) : undefined;
+  }
+
+  /** The pose at `time`, between two poses that are at most `most_s` apart. */
+  between(time: number, most_s: number): Pose2 | undefined {
+    const before = this.indexAt(time + 1e-6);
+    if (before < 0 || (before + 1 === this.count && time > this.times[before]! + 1e-3)) return undefined;
+    const after = Math.min(before + 1, this.count - 1);
+    const gap = this.times[after]! - this.times[before]!;
+    if (gap > most_s) return undefined;
+    const part = gap > 0 ? Math.max(0, (time - this.times[before]!) / gap) : 0;
+    const [from, to] = [this.at(before), this.at(after)];
+    const along = (a: number, b: number) => a + part * (b - a);
+    return { x: along(from.x, to.x), y: along(from.y, to.y), yaw: wrapped(from.yaw + part * wrapped(to.yaw - from.yaw)) };
   }
 
   bounds(): Bounds {

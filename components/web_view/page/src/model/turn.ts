@@ -9,7 +9,9 @@ export interface Turn {
   odometry: number;
 }
 
-/** Compares the turn between two panoramas with that of the odometry between the poses of the same stamps. */
+const gap_s = 0.5; // longest one between poses of the odometry
+
+/** Compares the turn between two panoramas with that of the odometry, whose images may have other stamps. */
 export class TurnComparison {
   #waiting: AzimuthChange[] = [];
 
@@ -30,8 +32,8 @@ export class TurnComparison {
       const change = this.#waiting.shift()!;
       const to = seconds(change.header.stamp);
       const from = seconds(change.from_stamp);
-      const before = odometry.exactly(from);
-      const after = odometry.exactly(to);
+      const before = odometry.between(from, gap_s);
+      const after = odometry.between(to, gap_s);
       if (!before || !after || to <= from) continue;
       const perSecond = 180 / Math.PI / (to - from);
       turns.push({ time: to, compass: change.azimuth_change_rad * perSecond, odometry: wrapped(after.yaw - before.yaw) * perSecond });

@@ -60,8 +60,17 @@ export class ConnectionPanel {
   }
 
   snapshot(taken: string): void {
+    this.#without(`Snapshot of ${new Date(taken).toLocaleString()}`);
+  }
+
+  recorded(title: string): void {
+    this.#button.title = title;
+    this.#without("Recorded drive");
+  }
+
+  #without(text: string): void {
     this.#button.setAttribute("disabled", "");
-    this.#show("snapshot", `Snapshot of ${new Date(taken).toLocaleString()}`);
+    this.#show("snapshot", text);
   }
 
   /** Counts down to the next attempt. */

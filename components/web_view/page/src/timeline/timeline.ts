@@ -16,6 +16,7 @@ const windows: [string, number][] = [
 export class Timeline {
   cursor_s: number | undefined;
   window_s = 60;
+  staysAt = false; // the cursor stays where it was last
   #colours = readColours();
   #strip = h("canvas.strip", { "aria-label": "State over time" });
   #time = h("span.cursor");
@@ -25,16 +26,12 @@ export class Timeline {
   constructor(
     readonly element: HTMLElement,
     readonly drive: Drive,
-    onCursor: (time: number | undefined) => void,
+    readonly onCursor: (time: number | undefined) => void,
   ) {
     this.#plots = charts.map(
       (chart) =>
         new Plot(chart, (time) => {
-          if (time === this.cursor_s) return;
-          this.cursor_s = time;
-          for (const plot of this.#plots) plot.tell(time);
-          this.#tellTime();
-          onCursor(time);
+          if (time !== undefined || !this.staysAt) this.#setCursor(time);
         }),
     );
     this.#buttons = windows.map(([text, seconds]) =>
@@ -60,10 +57,24 @@ export class Timeline {
     this.#tellTime();
   }
 
+  /** Moves the cursor by some seconds of the drive. */
+  step(seconds: number): void {
+    const { begin, now } = this.drive;
+    this.#setCursor(Math.min(Math.max((this.cursor_s ?? now) + seconds, begin), now));
+  }
+
   choose(window_s: number): void {
     this.window_s = window_s;
     this.#buttons.forEach((button, i) => button.setAttribute("aria-pressed", String(windows[i]![1] === window_s)));
     this.update();
+  }
+
+  #setCursor(time: number | undefined): void {
+    if (time === this.cursor_s) return;
+    this.cursor_s = time;
+    for (const plot of this.#plots) plot.tell(time);
+    this.#tellTime();
+    this.onCursor(time);
   }
 
   #tellTime(): void {

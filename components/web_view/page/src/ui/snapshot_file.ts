@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A snapshot as one HTML file, with everything it needs: to send to somebody, to open without a network. */
+import type { RecordedDrive } from "../model/recorded_drive.ts";
 import type { Snapshot } from "../model/snapshot.ts";
 
 const id = "snapshot";
 
 /** Text that may stand in a script element. */
-const inScript = (text: string) => text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+export const inScript = (text: string) => text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 
 async function textOf(file: string): Promise<string> {
   const response = await fetch(file);
@@ -25,11 +26,14 @@ export async function snapshotPage(snapshot: Snapshot): Promise<Blob> {
   return new Blob([page], { type: "text/html" });
 }
 
-/** The snapshot in this page, if it is one. */
-export function includedSnapshot(): Snapshot | undefined {
-  const element = document.getElementById(id);
-  return element ? (JSON.parse(element.textContent ?? "") as Snapshot) : undefined;
+function included(element: HTMLElement | null): unknown {
+  return element ? JSON.parse(element.textContent ?? "") : undefined;
 }
+
+/** The snapshot in this page, if it is one. */
+export const includedSnapshot = () => included(document.getElementById(id)) as Snapshot | undefined;
+/** The recorded drive in this page, if it is one. */
+export const includedDrive = () => included(document.getElementById("recorded-drive")) as RecordedDrive | undefined;
 
 export function download(blob: Blob, name: string): void {
   const link = document.createElement("a");

@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Messages for tests. */
 import type { Pose2 } from "../../src/model/geometry.ts";
+import { covariance6 as covariance, headerOf as header, poseOf as pose, stampOf as stamp } from "../../src/model/message_parts.ts";
 
-export const stamp = (seconds: number) => ({ sec: Math.floor(seconds), nanosec: Math.round((seconds % 1) * 1e9) });
-export const header = (seconds: number, frame_id = "map") => ({ stamp: stamp(seconds), frame_id });
-
-export function pose({ x, y, yaw }: Pose2) {
-  return { position: { x, y, z: 0 }, orientation: { x: 0, y: 0, z: Math.sin(yaw / 2), w: Math.cos(yaw / 2) } };
-}
-
-export function covariance(xx: number, xy: number, yy: number): number[] {
-  const values = new Array<number>(36).fill(0);
-  [values[0], values[1], values[6], values[7]] = [xx, xy, xy, yy];
-  return values;
-}
+export { covariance, header, pose, stamp };
 
 export function odometry(seconds: number, at: Pose2, speed = 0) {
   return { header: header(seconds), pose: { pose: pose(at), covariance: covariance(0.04, 0, 0.01) }, twist: { twist: { linear: { x: speed, y: 0, z: 0 } } } };

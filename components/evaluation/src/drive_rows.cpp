@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drive_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "drive_clock.hpp"
+#include "drive_pictures.hpp"
+#include "html_text.hpp"
+
+namespace panvo::evaluation {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostStamps = 20'000;  // of poses: more than a screen shows
+
+/// Of covariances, 1e-4 would be a centimetre.
+double fine(double value) { return std::round(value * 1e9) * 1e-9; }
+
+/// 0.1 mm, 0.1 ms, 0.006 degrees: printed in few digits.
+double rounded(double value) { return std::round(value * 1e4) / 1e4; }
+
+Json pose_row(const Eigen::Isometry3d& pose) {
+  return {rounded(pose.translation().x()), rounded(pose.translation().y()), rounded(yaw_of(pose))};
+}
+
+Json number_or_null(const std::optional<double>& value) { return value ? Json(rounded(*value)) : Json(); }
+
+class Rows {
+ public:
+  explicit Rows(const JourneyFrames& frames) : frames_(frames), clock_(frames.run), shown_(stamps(frames.run)) {}
+
+  Json all() const {
+    const auto& run = frames_.run;
+    Json drive;
+    drive["enhanced"] = enhanced();
+    drive["binocular"] = path(run.binocular, Eigen::Isometry3d::Identity());
+    drive["truth"] = path(frames_.recording.truth, frames_.world_from_map.inverse());
+    drive["places"] = places();
+    const Eigen::Vector3d middle = frames_.recording.base_from_panorama.linear().col(2);  // the z axis points there
+    drive["panoramaYaw"] = rounded(std::atan2(middle.y(), middle.x()));
+    drive["quality"] = rows(run.qualities, [](const RunQuality& one) {
+      return Json{one.reliable, one.tracked, one.inliers};
+    });
+    drive["integrity"] = rows(run.integrity, [](const RunIntegrity& one) {
+      return Json{one.usable, one.reason, number_or_null(one.risk), number_or_null(one.protection_level_m),
+                  number_or_null(one.alert_limit_m)};
+    });
+    drive["azimuth"] = Json::array();
+    for (const auto& one : run.azimuths) {
+      if (one.change_rad) drive["azimuth"].push_back({time(one.stamp_ns), time(one.from_ns), fine(*one.change_rad)});
+    }
+    drive["matches"] = Json::array();
+    for (const auto& one : run.matches) {
+      if (!one.heading_rad) continue;
+      drive["matches"].push_back({time(one.stamp_ns), one.state, one.landmark, rounded(*one.heading_rad)});
+    }
+    drive["outcomes"] = Json::array();
+    for (const auto& one : run.outcomes) {
+      drive["outcomes"].push_back({time(one.stamp_ns), one.landmark, one.outcome, one.reason,
+                                   pose_row(one.map_from_base_before), pose_row(one.map_from_base_after)});
+    }
+    drive["states"] = Json::array();
+    for (const auto& one : run.states) {
+      drive["states"].push_back({time(one.stamp_ns), one.state, one.reason, number_or_null(one.position_sigma_m),
+                                 number_or_null(one.heading_sigma_rad)});
+    }
+    return drive;
+  }
+
+ private:
+  /// Stamps of the poses that are shown; every second, third ... one of a long drive.
+  static std::vector<std::int64_t> stamps(const JourneyRun& run) {
+    std::vector<std::int64_t> all;
+    for (const auto* path : {&run.enhanced, &run.binocular}) {
+      for (const auto& pose : path->poses) all.push_back(pose.stamp_ns);
+    }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    const std::size_t step = all.size() / kMostStamps + 1;
+    std::vector<std::int64_t> shown;
+    for (std::size_t i = 0; i < all.size(); i += step) shown.push_back(all[i]);
+    return shown;
+  }
+
+  bool is_shown(std::int64_t stamp_ns) const { return std::ranges::binary_search(shown_, stamp_ns); }
+
+  double time(std::int64_t stamp_ns) const { return rounded(clock_.seconds(stamp_ns)); }
+
+  /// A row for each entry with a stamp that is shown: its time, then `values_of` it.
+  template <class Entry, class Values>
+  Json rows(const std::vector<Entry>& entries, Values values_of) const {
+    Json rows = Json::array();
+    for (const auto& entry : entries) {
+      if (!is_shown(entry.stamp_ns)) continue;
+      Json row = {time(entry.stamp_ns)};
+      for (auto& value : values_of(entry)) row.push_back(value);
+      rows.push_back(std::move(row));
+    }
+    return rows;
+  }
+
+  Json path(const Trajectory& trajectory, const Eigen::Isometry3d& shown_from_world) const {
+    return rows(trajectory.poses,
+                [&](const StampedPose& pose) { return pose_row(shown_from_world * pose.world_from_base); });
+  }
+
+  Json enhanced() const {
+    const auto& poses = frames_.run.enhanced.poses;
+    const auto& covariances = frames_.run.enhanced_covariances;
+    return rows(poses, [&](const StampedPose& pose) {
+      Json row = pose_row(pose.world_from_base);
+      Matrix6d covariance = Matrix6d::Zero();
+      if (covariances) {
+        if (const auto found = covariances->find(pose.stamp_ns); found != covariances->end())
+          covariance = found->second.pose;
+      }
+      for (const double value : {covariance(0, 0), covariance(0, 1), covariance(1, 1)}) row.push_back(fine(value));
+      row.push_back(rounded(speed_m_s(pose.stamp_ns)));
+      return row;
+    });
+  }
+
+  /// Of the odometry, which does not jump; 0 before its first step.
+  double speed_m_s(std::int64_t stamp_ns) const {
+    const auto& poses = frames_.run.binocular.poses;
+    const auto after = std::ranges::upper_bound(poses, stamp_ns, {}, &StampedPose::stamp_ns);
+    if (after - poses.begin() < 2) return 0.0;
+    const StampedPose &now = *std::prev(after), &before = *std::prev(after, 2);
+    return (now.world_from_base.translation() - before.world_from_base.translation()).norm() /
+           (1e-9 * static_cast<double>(now.stamp_ns - before.stamp_ns));
+  }
+
+  /// As last published.
+  Json places() const {
+    std::map<std::int64_t, const RunLandmark*> last;
+    for (const auto& landmark : frames_.run.landmarks) last[landmark.id] = &landmark;
+    Json places = Json::array();
+    for (const auto& [id, landmark] : last) {
+      places.push_back({{"time", time(landmark->stamp_ns)},
+                        {"id", id},
+                        {"junction", landmark->is_junction},
+                        {"pose", pose_row(landmark->map_from_base)},
+                        {"thumbnail", base64(thumbnail(frames_, landmark->stamp_ns))}});
+    }
+    return places;
+  }
+
+  const JourneyFrames& frames_;
+  DriveClock clock_;
+  std::vector<std::int64_t> shown_;
+};
+
+}  // namespace
+
+Json drive_rows(const JourneyFrames& frames) { return Rows(frames).all(); }
+
+}  // namespace panvo::evaluation
