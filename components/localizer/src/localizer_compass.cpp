@@ -61,7 +61,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
 
   const double turn_rate = azimuth.change_rad / vision::seconds(from_ns, to_ns);
   const bool is_straight = std::max(std::abs(turn_rate), std::abs(rate_change)) < kStraight;
-  std::optional<YawBiasDetector::Stretch> lean;
+  std::optional<YawBiasDetector::Bias> lean;
   if (is_contradicted || !(is_clock_known() || is_straight)) {
     lean_.forget();
   } else {
@@ -156,9 +156,8 @@ void Localizer::take_reference(std::int64_t panorama_stamp_ns) {
   last_from_ns_ = panorama_stamp_ns;
 }
 
-/// Adds a turn, with the odometry as received, to the sum of small differences. Returns the biased stretch; nullopt if
-/// there is none.
-std::optional<YawBiasDetector::Stretch> Localizer::add_to_lean(YawBiasDetector::Stretch turn) {
+/// Adds a turn, with the odometry as received, to the sum of small differences.
+std::optional<YawBiasDetector::Bias> Localizer::add_to_lean(YawBiasDetector::Stretch turn) {
   const auto raw_rad = chain_.raw_turn(turn.from_ns, turn.to_ns);
   if (!raw_rad) return std::nullopt;
   const double said_rad = (1.0 - turn_scale_.estimate()) * *raw_rad;
@@ -166,14 +165,14 @@ std::optional<YawBiasDetector::Stretch> Localizer::add_to_lean(YawBiasDetector::
   return lean_.add(turn);
 }
 
-/// Replaces the turns of a biased stretch of odometry by the compass.
-void Localizer::straighten(const YawBiasDetector::Stretch& lean) {
-  const auto leaning = chain_.turn(lean.from_ns, lean.to_ns);
-  if (leaning && leaning->variance_rad2 < lean.disagreement_rad * lean.disagreement_rad) {
-    inflate(lean.from_ns, lean.to_ns, lean.disagreement_rad);
-  }
-  fuse(lean.from_ns, lean.to_ns, lean.compass_rad, lean.compass_variance_rad2);
-  graph_.refresh(chain_, lean.from_ns);
+/// Replaces biased turns of odometry by the compass.
+void Localizer::straighten(const YawBiasDetector::Bias& lean) {
+  const auto& [from_ns, to_ns, disagreement_rad, compass_rad, odometry_variance, compass_variance] = lean.uncorrected;
+  const auto leaning = chain_.turn(from_ns, to_ns);
+  const double wrong_rad = std::sqrt(lean.excess * odometry_variance);
+  if (leaning && leaning->variance_rad2 < wrong_rad * wrong_rad) inflate(from_ns, to_ns, wrong_rad);
+  fuse(from_ns, to_ns, compass_rad, compass_variance);
+  graph_.refresh(chain_, from_ns);
 }
 
 /// Raises the variance of the odometry's turn to the square of what it disagrees by.

@@ -162,6 +162,33 @@ TEST(LocalizerWithCompass, LearnsByWhatShareOdometryTurnsTooMuch) {
             0.3 * kTooMuch * 2.0 * M_PI);
 }
 
+/// As the odometry of a camera that looks sideways and whose calibration has aged: 0.05 degrees per metre.
+TEST(LocalizerWithCompass, TakesALastingLeanOfTheOdometryAwayOnce) {
+  constexpr double kLean_rad = 8e-4;
+  constexpr int kSteps = 300, kPanoramasPerReference = 4;
+  Parameters one_clock = of_known_scale();
+  one_clock.clock_sigma_s = 0.0;
+  Localizer localizer(one_clock);
+  OdometryPose odometry;
+  const vision::Matrix6d gained = 1e-7 * vision::Matrix6d::Identity();
+  localizer.add(odometry);
+  std::int64_t reference_ns = 0;
+  double most_rad = 0.0;
+  for (int i = 1; i <= kSteps; ++i) {
+    Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+    step.translation().x() = kStep_m;
+    step.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, kLean_rad));
+    odometry.covariance = vision::compose_covariance(odometry.odom_from_base, odometry.covariance, step, gained);
+    odometry.odom_from_base = odometry.odom_from_base * step;
+    odometry.stamp_ns += kPeriod_ns;
+    localizer.add(odometry);
+    localizer.add(AzimuthMeasurement{reference_ns, odometry.stamp_ns, 0.0, 1e-6});
+    if (i % kPanoramasPerReference == 0) reference_ns = odometry.stamp_ns;
+    most_rad = std::max(most_rad, std::abs(yaw_of(localizer.latest().map_from_base.linear())));
+  }
+  EXPECT_LT(most_rad, 0.1 * kSteps * kLean_rad);
+}
+
 TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {
   constexpr double kTurn_rad = 2.0 * M_PI / 200.0;  // per step
   const auto position_variance = [&](bool tells_all) {

@@ -202,8 +202,8 @@ class Localizer {
   bool may_be_of_another_time(const AzimuthMeasurement& azimuth, double within_rad);
   vision::ClockSearch::Reference turns_of_odometry() const;
   void take_reference(std::int64_t panorama_stamp_ns);
-  std::optional<YawBiasDetector::Stretch> add_to_lean(YawBiasDetector::Stretch turn);
-  void straighten(const YawBiasDetector::Stretch& lean);
+  std::optional<YawBiasDetector::Bias> add_to_lean(YawBiasDetector::Stretch turn);
+  void straighten(const YawBiasDetector::Bias& lean);
   void inflate(std::int64_t from_ns, std::int64_t to_ns, double disagreement_rad);
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
   void slew(const Eigen::Isometry3d& step);

@@ -18,18 +18,27 @@ class YawBiasDetector {
     double odometry_variance_rad2 = 0.0, compass_variance_rad2 = 0.0;
   };
 
+  struct Bias {
+    Stretch uncorrected;  ///< the whole stretch when its bias is noticed; then, while it lasts, only the newest turn
+    double excess = 1.0;  ///< square of the whole stretch's disagreement over the variance that odometry states
+  };
+
   /// `window_s`: time over which disagreements are summed; `sigmas`: threshold for their sum.
   YawBiasDetector(double window_s, double sigmas) : window_s_(window_s), sigmas_(sigmas) {}
 
-  /// Adds a turn; of several against one reference panorama the last counts. Returns the whole biased stretch; nullopt
-  /// while there is no bias. Turns that are not consecutive restart the sum.
-  std::optional<Stretch> add(const Stretch& turn);
+  /// Adds a turn; of several against one reference panorama the last counts, and the correction of the one before is
+  /// taken back. Returns nullopt while there is no bias. Turns that are not consecutive restart the sum.
+  std::optional<Bias> add(const Stretch& turn);
   /// Restarts the sum.
-  void forget() { turns_.clear(); }
+  void forget() { *this = YawBiasDetector(window_s_, sigmas_); }
 
  private:
+  void take(const Stretch& turn);
+
   double window_s_, sigmas_;
   std::deque<Stretch> turns_;
+  bool is_biased_ = false;     // as of the last turn
+  bool is_corrected_ = false;  // up to the reference of the last turn
 };
 
 }  // namespace panvo::localizer
