@@ -48,7 +48,7 @@ Localizer::Localizer(const Parameters& parameters)
       origin_(parameters.max_speed_m_s),
       chain_(parameters.history_s),
       clock_(parameters.clock_sigma_s),
-      turn_scale_(parameters.turn_scale_sigma),
+      turn_error_(parameters.turn_scale_sigma, parameters.turn_lean_sigma_deg_m * vision::kDegree),
       lean_(parameters.lean_window_s, parameters.lean_sigmas),
       check_(parameters),
       dead_reckoning_(parameters.motion, parameters.gap_s),
@@ -65,16 +65,16 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
   if (!taken.odometry) return refused(taken.reason);
   const OdometryPose& odometry = *taken.odometry;
   const double doubt = std::min(1.0, odometry.outlier_share / parameters_.doubtful_outlier_share);
-  const double scale = turn_scale_.estimate();
   const vision::Matrix6d least =
       chain_.empty() ? vision::Matrix6d(vision::Matrix6d::Zero())
                      : dead_reckoning_.step(vision::seconds(chain_.latest().pose.stamp_ns, odometry.stamp_ns),
                                             odometry.is_reliable);
-  chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt), scale, least);
+  const Eigen::Isometry3d step = last_raw_.inverse() * odometry.odom_from_base;
+  const double turn_error_rad = turn_error_.error_rad(yaw_of(step.linear()), step.translation().norm());
+  chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt), turn_error_rad, least);
   check_.add_step(chain_);
   if (graph_.has_started()) {
-    const Eigen::Isometry3d step = last_raw_.inverse() * odometry.odom_from_base;
-    slew(turned_more(step, -scale * yaw_of(step.linear())));
+    slew(turned_more(step, -turn_error_rad));
   } else {
     graph_.start(chain_.latest());
     smooth_ = odometry.odom_from_base;

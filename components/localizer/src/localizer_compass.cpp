@@ -74,7 +74,8 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   if (lean) {
     straighten(*lean);
   } else if (!is_contradicted) {
-    turn_seen_ = TurnSeen{disagreement, turn->change_rad, kScaleCaution * (compass_variance + turn->variance_rad2)};
+    turn_seen_ = TurnSeen{disagreement, turn->change_rad, chain_.at(to_ns)->way_m - chain_.at(from_ns)->way_m,
+                          kScaleCaution * (compass_variance + turn->variance_rad2)};
     clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->said_variance_rad2));
   }
   azimuth_ns_ = to_ns;
@@ -150,7 +151,9 @@ void Localizer::set_clock(double ahead_s, std::int64_t panorama_stamp_ns) {
 void Localizer::take_reference(std::int64_t panorama_stamp_ns) {
   if (last_from_ns_ == panorama_stamp_ns) return chain_.revert();
   chain_.mark(in_odometry_time(panorama_stamp_ns));
-  if (turn_seen_) turn_scale_.add(turn_seen_->disagreement_rad, turn_seen_->turn_rad, turn_seen_->variance_rad2);
+  if (turn_seen_) {
+    turn_error_.add(turn_seen_->disagreement_rad, turn_seen_->turn_rad, turn_seen_->way_m, turn_seen_->variance_rad2);
+  }
   turn_seen_.reset();
   check_.begin_reference();
   last_from_ns_ = panorama_stamp_ns;
@@ -160,7 +163,8 @@ void Localizer::take_reference(std::int64_t panorama_stamp_ns) {
 std::optional<YawBiasDetector::Bias> Localizer::add_to_lean(YawBiasDetector::Stretch turn) {
   const auto raw_rad = chain_.raw_turn(turn.from_ns, turn.to_ns);
   if (!raw_rad) return std::nullopt;
-  const double said_rad = (1.0 - turn_scale_.estimate()) * *raw_rad;
+  const double way_m = chain_.at(turn.to_ns)->way_m - chain_.at(turn.from_ns)->way_m;
+  const double said_rad = *raw_rad - turn_error_.error_rad(*raw_rad, way_m);
   turn.disagreement_rad = vision::wrapped(turn.compass_rad - said_rad);
   return lean_.add(turn);
 }

@@ -36,7 +36,7 @@ Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad) {
   return turned;
 }
 
-bool OdometryBuffer::add(const OdometryPose& odometry, double turn_share, double turn_scale,
+bool OdometryBuffer::add(const OdometryPose& odometry, double turn_share, double turn_error_rad,
                          const vision::Matrix6d& least) {
   if (!odometry.odom_from_base.matrix().allFinite() || !odometry.covariance.allFinite()) return false;
   if (!entries_.empty() && odometry.stamp_ns <= entries_.back().raw.stamp_ns) return false;
@@ -45,8 +45,7 @@ bool OdometryBuffer::add(const OdometryPose& odometry, double turn_share, double
   entry.now.pose = odometry;
   if (!entries_.empty()) {
     const auto& before = entries_.back();
-    const Eigen::Isometry3d said = before.raw.odom_from_base.inverse() * odometry.odom_from_base;
-    entry.step.motion = turned_more(said, -turn_scale * yaw_of(said.linear()));
+    entry.step.motion = turned_more(before.raw.odom_from_base.inverse() * odometry.odom_from_base, -turn_error_rad);
     entry.step.covariance = gained_covariance(before.raw, odometry, kMinStepVariance);
     entry.step.turn_share = turn_share;
     entry.step.covariance.row(vision::kYaw) *= std::sqrt(turn_share);

@@ -115,7 +115,7 @@ TEST(LocalizerWithCompass, TakesTheLastOfTheTurnsAgainstOnePanorama) {
   const auto drive_on = [](bool tells_all) {
     Drive drive(12);
     Parameters known;  // self-calibration would use each turn at other times
-    known.clock_sigma_s = known.turn_scale_sigma = 0.0;
+    known.clock_sigma_s = known.turn_scale_sigma = known.turn_lean_sigma_deg_m = 0.0;
     Localizer localizer(known);
     localizer.add(drive.now());
     for (int i = 0; i < 40; ++i) {
@@ -162,31 +162,61 @@ TEST(LocalizerWithCompass, LearnsByWhatShareOdometryTurnsTooMuch) {
             0.3 * kTooMuch * 2.0 * M_PI);
 }
 
-/// As the odometry of a camera that looks sideways and whose calibration has aged: 0.05 degrees per metre.
+/// A straight drive with odometry that leans to the left, and a compass that does not. Several panoramas are compared
+/// with each reference.
+struct Leaning {
+  Leaning(const Parameters& parameters, double lean_rad_m) : localizer(parameters), lean_rad_m_(lean_rad_m) {
+    localizer.add(odometry_);
+  }
+
+  /// Returns the largest error of the heading on the way.
+  double drive(int metres, bool has_compass) {
+    double most_rad = 0.0;
+    for (int i = 1; i <= metres; ++i) {
+      Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+      step.translation().x() = kStep_m;
+      step.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, lean_rad_m_));
+      const vision::Matrix6d gained = 1e-7 * vision::Matrix6d::Identity();
+      odometry_.covariance = vision::compose_covariance(odometry_.odom_from_base, odometry_.covariance, step, gained);
+      odometry_.odom_from_base = odometry_.odom_from_base * step;
+      odometry_.stamp_ns += kPeriod_ns;
+      localizer.add(odometry_);
+      if (has_compass) localizer.add(AzimuthMeasurement{reference_ns_, odometry_.stamp_ns, 0.0, kCompass_rad2});
+      if (i % 4 == 0) reference_ns_ = odometry_.stamp_ns;
+      most_rad = std::max(most_rad, std::abs(yaw_of(localizer.latest().map_from_base.linear())));
+    }
+    return most_rad;
+  }
+
+  Localizer localizer;
+
+ private:
+  static constexpr double kCompass_rad2 = 1e-7;
+
+  double lean_rad_m_;
+  OdometryPose odometry_;
+  std::int64_t reference_ns_ = 0;
+};
+
 TEST(LocalizerWithCompass, TakesALastingLeanOfTheOdometryAwayOnce) {
-  constexpr double kLean_rad = 8e-4;
-  constexpr int kSteps = 300, kPanoramasPerReference = 4;
+  Parameters exact = of_known_scale();
+  exact.clock_sigma_s = exact.turn_lean_sigma_deg_m = 0.0;
+  constexpr double kLean_rad_m = 8e-4;  // as of a camera that looks sideways and whose calibration has aged
+  EXPECT_LT(Leaning(exact, kLean_rad_m).drive(300, true), 0.1 * 300 * kLean_rad_m);
+}
+
+TEST(LocalizerWithCompass, LearnsWhatOdometryTurnsTooMuchPerMetre) {
   Parameters one_clock = of_known_scale();
   one_clock.clock_sigma_s = 0.0;
-  Localizer localizer(one_clock);
-  OdometryPose odometry;
-  const vision::Matrix6d gained = 1e-7 * vision::Matrix6d::Identity();
-  localizer.add(odometry);
-  std::int64_t reference_ns = 0;
-  double most_rad = 0.0;
-  for (int i = 1; i <= kSteps; ++i) {
-    Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-    step.translation().x() = kStep_m;
-    step.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, kLean_rad));
-    odometry.covariance = vision::compose_covariance(odometry.odom_from_base, odometry.covariance, step, gained);
-    odometry.odom_from_base = odometry.odom_from_base * step;
-    odometry.stamp_ns += kPeriod_ns;
-    localizer.add(odometry);
-    localizer.add(AzimuthMeasurement{reference_ns, odometry.stamp_ns, 0.0, 1e-6});
-    if (i % kPanoramasPerReference == 0) reference_ns = odometry.stamp_ns;
-    most_rad = std::max(most_rad, std::abs(yaw_of(localizer.latest().map_from_base.linear())));
-  }
-  EXPECT_LT(most_rad, 0.1 * kSteps * kLean_rad);
+  constexpr double kLean_rad_m = 7e-5;  // one standard deviation
+  Leaning leaning(one_clock, kLean_rad_m);
+  leaning.drive(400, true);
+  const double before_rad = yaw_of(leaning.localizer.latest().map_from_base.linear());
+  const double published_rad = yaw_of(leaning.localizer.latest().odom_from_base.linear());
+  leaning.drive(100, false);
+  EXPECT_LT(std::abs(yaw_of(leaning.localizer.latest().map_from_base.linear()) - before_rad), 0.4 * 100 * kLean_rad_m);
+  EXPECT_LT(std::abs(yaw_of(leaning.localizer.latest().odom_from_base.linear()) - published_rad),
+            0.4 * 100 * kLean_rad_m);
 }
 
 TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {

@@ -38,26 +38,25 @@ TEST(YawBiasDetector, IsSeenInErrorsThatAreSmallButAllToOneSide) {
 
 TEST(YawBiasDetector, GivesEachTurnOfALastingBiasOnceToBeCorrected) {
   YawBiasDetector lean(6.0, 3.0);
-  double corrected_rad = 0.0, before_reference_rad = 0.0;
-  constexpr int kTurns = 60;
-  for (int i = 0; i < kTurns; ++i) {
-    before_reference_rad = corrected_rad;
-    for (const double part : {0.5, 1.0}) {  // two panoramas against one reference; the second replaces the first
-      auto now = turn(i, part * 0.0017);
-      now.to_ns = now.from_ns + static_cast<std::int64_t>(part * kInterval_ns);
-      const auto found = lean.add(now);
-      if (!found) continue;
-      if (found->uncorrected.from_ns == now.from_ns) {
-        corrected_rad = before_reference_rad;  // as the correction of the first is taken back
-        EXPECT_EQ(found->uncorrected.to_ns, now.to_ns);
-      } else {
-        EXPECT_EQ(before_reference_rad, 0.0) << "the whole stretch, when the bias is noticed";
-      }
-      corrected_rad += found->uncorrected.disagreement_rad;
-      if (part == 0.5 && found->uncorrected.from_ns != now.from_ns) before_reference_rad = corrected_rad - 0.5 * 0.0017;
-    }
+  std::int64_t corrected_until_ns = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto found = lean.add(turn(i, 0.0017));
+    if (!found) continue;
+    EXPECT_EQ(found->uncorrected.from_ns, corrected_until_ns);
+    corrected_until_ns = found->uncorrected.to_ns;
   }
-  EXPECT_NEAR(corrected_rad, kTurns * 0.0017, 1e-9);
+  EXPECT_EQ(corrected_until_ns, 60 * kInterval_ns);
+}
+
+TEST(YawBiasDetector, GivesOnlyTheNewestTurnAgainIfAnotherAgainstItsReferenceReplacesIt) {
+  YawBiasDetector lean(6.0, 3.0);
+  int i = 0;
+  while (!lean.add(turn(i, 0.0017))) ++i;
+  for (int again = 0; again < 3; ++again) {
+    const auto found = lean.add(turn(i, 0.0017));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->uncorrected.from_ns, i * kInterval_ns);
+  }
 }
 
 TEST(YawBiasDetector, CountsTheLastOfSeveralTurnsAgainstOnePanorama) {

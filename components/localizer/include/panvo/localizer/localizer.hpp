@@ -18,8 +18,8 @@
 #include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/odometry_buffer.hpp"
 #include "panvo/localizer/odometry_origin.hpp"
+#include "panvo/localizer/turn_error_filter.hpp"
 #include "panvo/localizer/yaw_bias_detector.hpp"
-#include "panvo/localizer/yaw_scale_filter.hpp"
 #include "panvo/vision/clock_search.hpp"
 
 namespace panvo::localizer {
@@ -178,7 +178,7 @@ class Localizer {
   };
 
   struct TurnSeen {  // by odometry and compass
-    double disagreement_rad, turn_rad, variance_rad2;
+    double disagreement_rad, turn_rad, way_m, variance_rad2;
   };
 
   FixOutcome try_fixes(const GnssTrial::Sample& sample, double least_m);
@@ -217,7 +217,7 @@ class Localizer {
   bool is_clock_doubtful_ = false;            // it may have been stepped
   std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
   std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times
-  YawScaleFilter turn_scale_;
+  TurnErrorFilter turn_error_;
   YawBiasDetector lean_;
   CrossCheck check_;
   DeadReckoning dead_reckoning_;

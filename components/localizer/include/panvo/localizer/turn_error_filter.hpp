@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace panvo::localizer {
+
+/// Systematic error of odometry's turns, which the compass shows: a share of each turn, as of an error of focal length
+/// or distortion, which the stereo pair does not notice and a panorama does not have; and a lean per metre, as of an
+/// error of the rectification. Kalman filter with two states.
+class TurnErrorFilter {
+ public:
+  /// Prior standard deviations.
+  TurnErrorFilter(double scale_sigma, double lean_sigma_rad_m);
+
+  /// `disagreement_rad`: turn by panoramas minus turn by odometry between the same two times, the latter corrected by
+  /// error_rad(); `turn_rad`, `way_m`: by odometry; `variance_rad2`: of the disagreement of exact odometry.
+  void add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2);
+
+  /// What odometry turns too much on a step.
+  double error_rad(double turn_rad, double way_m) const noexcept { return state_[0] * turn_rad + state_[1] * way_m; }
+  /// 0.003: odometry turns 0.3 % more than the vehicle.
+  double scale() const noexcept { return state_[0]; }
+  double lean_rad_m() const noexcept { return state_[1]; }
+  const Eigen::Matrix2d& covariance() const noexcept { return covariance_; }
+
+ private:
+  Eigen::Vector2d state_ = Eigen::Vector2d::Zero();  // scale, lean
+  Eigen::Matrix2d covariance_;
+};
+
+}  // namespace panvo::localizer

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/turn_error_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace panvo::localizer {
+namespace {
+
+TEST(TurnErrorFilter, LearnsNothingAtStandstill) {
+  TurnErrorFilter filter(0.003, 1e-4);
+  for (int i = 0; i < 100; ++i) filter.add(0.001, 0.01, 0.1, 1e-6);
+  EXPECT_EQ(filter.error_rad(1.0, 100.0), 0.0);
+  EXPECT_NEAR(filter.covariance()(0, 0), 9e-6, 1e-12);
+  EXPECT_NEAR(filter.covariance()(1, 1), 1e-8, 1e-16);
+}
+
+TEST(TurnErrorFilter, TellsWhatExplainsTheDisagreementsAsSureAsItSays) {
+  constexpr double kSigma_rad = 7e-4, kWay_m = 5.0;
+  double nees = 0.0;
+  constexpr int kJourneys = 200;
+  for (int journey = 0; journey < kJourneys; ++journey) {
+    std::mt19937_64 random(static_cast<unsigned>(journey));
+    std::normal_distribution<double> normal;
+    const double scale = 0.003 * normal(random), lean_rad_m = 1e-4 * normal(random);
+    TurnErrorFilter filter(0.003, 1e-4);
+    for (int i = 0; i < 30; ++i) {  // alternately left, right and straight
+      const double turn = i % 3 == 0 ? -0.1 : i % 3 == 1 ? 0.1 : 0.0;
+      const double unexplained_rad = scale * turn + lean_rad_m * kWay_m - filter.error_rad(turn, kWay_m);
+      filter.add(-unexplained_rad + kSigma_rad * normal(random), turn, kWay_m, kSigma_rad * kSigma_rad);
+    }
+    const Eigen::Vector2d off(filter.scale() - scale, filter.lean_rad_m() - lean_rad_m);
+    nees += off.dot(filter.covariance().ldlt().solve(off)) / 2.0 / kJourneys;
+  }
+  EXPECT_NEAR(nees, 1.0, 0.2);
+}
+
+TEST(TurnErrorFilter, IsNeverSurerThanTheCompassSees) {
+  TurnErrorFilter filter(0.003, 1e-3);
+  for (int i = 0; i < 10'000; ++i) filter.add(0.0, i % 2 == 0 ? 0.3 : -0.3, 5.0, 1e-6);
+  EXPECT_NEAR(std::sqrt(filter.covariance()(0, 0)), 0.001, 1e-6);
+  EXPECT_NEAR(std::sqrt(filter.covariance()(1, 1)), 1e-5, 1e-8);
+}
+
+TEST(TurnErrorFilter, IsNotMovedByAMeasurementThatIsWrong) {
+  TurnErrorFilter filter(0.003, 1e-4);
+  filter.add(0.2, 0.3, 5.0, 1e-6);
+  EXPECT_EQ(filter.error_rad(1.0, 100.0), 0.0);
+}
+
+TEST(TurnErrorFilter, OfAnExactCalibrationIsNone) {
+  TurnErrorFilter filter(0.0, 0.0);
+  for (int i = 0; i < 10; ++i) filter.add(0.001, 0.5, 5.0, 1e-6);
+  EXPECT_EQ(filter.error_rad(1.0, 100.0), 0.0);
+}
+
+}  // namespace
+}  // namespace panvo::localizer
