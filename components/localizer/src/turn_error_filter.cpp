@@ -10,7 +10,7 @@ namespace {
 constexpr double kMinTurn_rad = 0.02, kMinWay_m = 0.5;  // below both, other errors exceed their effect
 constexpr double kMinScaleVariance = 1e-6;              // the compass misses as much of a turn
 constexpr double kMinLeanVariance = 1e-5 * 1e-5;        // and errs by as much per metre
-constexpr double kOutlier = 4.0 * 4.0;                  // squared standard deviations
+constexpr double kTurnOutlier = 4.0 * 4.0;              // squared standard deviations
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void TurnErrorFilter::add(double disagreement_rad, double turn_rad, double way_m
   if (std::abs(turn_rad) < kMinTurn_rad && way_m < kMinWay_m) return;
   const Eigen::Vector2d slope(-turn_rad, -way_m);  // odometry that turns more disagrees in the opposite direction
   const double spread = slope.dot(covariance_ * slope) + variance_rad2;
-  if (!(spread > 0.0) || disagreement_rad * disagreement_rad > kOutlier * spread) return;
+  if (!(spread > 0.0) || disagreement_rad * disagreement_rad > kTurnOutlier * spread) return;
   const Eigen::Vector2d gain = covariance_ * slope / spread;
   const Eigen::Vector2d least(std::min(kMinScaleVariance, covariance_(0, 0)),
                               std::min(kMinLeanVariance, covariance_(1, 1)));

@@ -201,22 +201,23 @@ struct Leaning {
 TEST(LocalizerWithCompass, TakesALastingLeanOfTheOdometryAwayOnce) {
   Parameters exact = of_known_scale();
   exact.clock_sigma_s = exact.turn_lean_sigma_deg_m = 0.0;
-  constexpr double kLean_rad_m = 8e-4;  // as of a camera that looks sideways and whose calibration has aged
-  EXPECT_LT(Leaning(exact, kLean_rad_m).drive(300, true), 0.1 * 300 * kLean_rad_m);
+  constexpr double kLeanPerMetre_rad = 8e-4;  // as of a camera that looks sideways and whose calibration has aged
+  EXPECT_LT(Leaning(exact, kLeanPerMetre_rad).drive(300, true), 0.1 * 300 * kLeanPerMetre_rad);
 }
 
 TEST(LocalizerWithCompass, LearnsWhatOdometryTurnsTooMuchPerMetre) {
   Parameters one_clock = of_known_scale();
   one_clock.clock_sigma_s = 0.0;
-  constexpr double kLean_rad_m = 7e-5;  // one standard deviation
-  Leaning leaning(one_clock, kLean_rad_m);
+  constexpr double kLeanPerMetre_rad = 7e-5;  // one standard deviation
+  Leaning leaning(one_clock, kLeanPerMetre_rad);
   leaning.drive(400, true);
   const double before_rad = yaw_of(leaning.localizer.latest().map_from_base.linear());
   const double published_rad = yaw_of(leaning.localizer.latest().odom_from_base.linear());
   leaning.drive(100, false);
-  EXPECT_LT(std::abs(yaw_of(leaning.localizer.latest().map_from_base.linear()) - before_rad), 0.4 * 100 * kLean_rad_m);
+  EXPECT_LT(std::abs(yaw_of(leaning.localizer.latest().map_from_base.linear()) - before_rad),
+            0.4 * 100 * kLeanPerMetre_rad);
   EXPECT_LT(std::abs(yaw_of(leaning.localizer.latest().odom_from_base.linear()) - published_rad),
-            0.4 * 100 * kLean_rad_m);
+            0.4 * 100 * kLeanPerMetre_rad);
 }
 
 TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {
