@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostStamps = 20'000;  // of poses: more than a screen shows
 
-/// Of covariances, 1e-4 would be a centimetre.
+/// Of variances, 1e-4 would be that of a centimetre.
 double fine(double value) { return std::round(value * 1e9) * 1e-9; }
 
 /// 0.1 mm, 0.1 ms, 0.006 degrees: printed in few digits.
@@ -49,28 +50,13 @@ class Rows {
       return Json{one.reliable, one.tracked, one.inliers};
     });
     drive["integrity"] = rows(run.integrity, [](const RunIntegrity& one) {
-      return Json{one.usable, one.reason, number_or_null(one.risk), number_or_null(one.protection_level_m),
+      return Json{one.usable, one.reason, one.risk ? Json(*one.risk) : Json(), number_or_null(one.protection_level_m),
                   number_or_null(one.alert_limit_m)};
     });
-    drive["azimuth"] = Json::array();
-    for (const auto& one : run.azimuths) {
-      if (one.change_rad) drive["azimuth"].push_back({time(one.stamp_ns), time(one.from_ns), fine(*one.change_rad)});
-    }
-    drive["matches"] = Json::array();
-    for (const auto& one : run.matches) {
-      if (!one.heading_rad) continue;
-      drive["matches"].push_back({time(one.stamp_ns), one.state, one.landmark, rounded(*one.heading_rad)});
-    }
-    drive["outcomes"] = Json::array();
-    for (const auto& one : run.outcomes) {
-      drive["outcomes"].push_back({time(one.stamp_ns), one.landmark, one.outcome, one.reason,
-                                   pose_row(one.map_from_base_before), pose_row(one.map_from_base_after)});
-    }
-    drive["states"] = Json::array();
-    for (const auto& one : run.states) {
-      drive["states"].push_back({time(one.stamp_ns), one.state, one.reason, number_or_null(one.position_sigma_m),
-                                 number_or_null(one.heading_sigma_rad)});
-    }
+    drive["azimuth"] = azimuths();
+    drive["matches"] = matches();
+    drive["outcomes"] = outcomes();
+    drive["states"] = states();
     return drive;
   }
 
@@ -116,7 +102,7 @@ class Rows {
     const auto& covariances = frames_.run.enhanced_covariances;
     return rows(poses, [&](const StampedPose& pose) {
       Json row = pose_row(pose.world_from_base);
-      Matrix6d covariance = Matrix6d::Zero();
+      Matrix6d covariance = Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());  // null: unknown
       if (covariances) {
         if (const auto found = covariances->find(pose.stamp_ns); found != covariances->end())
           covariance = found->second.pose;
@@ -135,6 +121,40 @@ class Rows {
     const StampedPose &now = *std::prev(after), &before = *std::prev(after, 2);
     return (now.world_from_base.translation() - before.world_from_base.translation()).norm() /
            (1e-9 * static_cast<double>(now.stamp_ns - before.stamp_ns));
+  }
+
+  Json azimuths() const {
+    Json azimuths = Json::array();
+    for (const auto& one : frames_.run.azimuths) {
+      if (one.change_rad) azimuths.push_back({time(one.stamp_ns), time(one.from_ns), fine(*one.change_rad)});
+    }
+    return azimuths;
+  }
+
+  Json matches() const {
+    Json matches = Json::array();
+    for (const auto& one : frames_.run.matches) {
+      if (one.heading_rad) matches.push_back({time(one.stamp_ns), one.state, one.landmark, rounded(*one.heading_rad)});
+    }
+    return matches;
+  }
+
+  Json outcomes() const {
+    Json outcomes = Json::array();
+    for (const auto& one : frames_.run.outcomes) {
+      outcomes.push_back({time(one.stamp_ns), one.landmark, one.outcome, one.reason, pose_row(one.map_from_base_before),
+                          pose_row(one.map_from_base_after)});
+    }
+    return outcomes;
+  }
+
+  Json states() const {
+    Json states = Json::array();
+    for (const auto& one : frames_.run.states) {
+      states.push_back({time(one.stamp_ns), one.state, one.reason, number_or_null(one.position_sigma_m),
+                        number_or_null(one.heading_sigma_rad)});
+    }
+    return states;
   }
 
   /// As last published.

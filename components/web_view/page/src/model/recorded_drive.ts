@@ -14,7 +14,7 @@ type Maybe = number | null; // null: unknown
 export interface RecordedDrive {
   version: 1;
   title: string;
-  enhanced: [time: number, ...Pose, xx: number, xy: number, yy: number, speed: number][]; // covariance of the position in m²
+  enhanced: [time: number, ...Pose, xx: Maybe, xy: Maybe, yy: Maybe, speed: number][]; // covariance of the position in m²
   binocular: [time: number, ...Pose][];
   truth: [time: number, ...Pose][];
   quality: [time: number, reliable: boolean, tracked: number, inliers: number][];
@@ -48,7 +48,7 @@ function messagesOf(recorded: RecordedDrive): [time: number, role: Role, message
   const add = (role: Role, time: number, message: unknown) => void messages.push([time, role, message]);
   for (const [time, ...pose] of recorded.truth) add("truth", time, odometry(time, pose));
   for (const [time, ...pose] of recorded.binocular) add("binocular", time, odometry(time, pose));
-  for (const [time, x, y, yaw, xx, xy, yy, speed] of recorded.enhanced) add("enhanced", time, odometry(time, [x, y, yaw], covariance6(xx, xy, yy), speed));
+  for (const [time, x, y, yaw, xx, xy, yy, speed] of recorded.enhanced) add("enhanced", time, odometry(time, [x, y, yaw], covariance6(known(xx), known(xy), known(yy)), speed));
   for (const [time, reliable, tracked, inliers] of recorded.quality) add("quality", time, { header: headerOf(time), reliable, tracked, inliers, reason: "" });
   for (const [time, from, change] of recorded.azimuth) add("azimuth", time, { header: headerOf(time), from_stamp: stampOf(from), azimuth_change_rad: change, valid: true });
   for (const { time, id, junction, pose, thumbnail } of recorded.places) {
