@@ -70,8 +70,7 @@ class PanoramicCompassComponent final : public runtime::Component {
     make_compass(upright_base_from_panorama());
     if (!parameters_.vehicle_mask.empty()) {
       set_seen(read_mask());
-    } else if (parameters_.learn_vehicle_mask) {
-      learns_ = true;
+    } else if (learns_mask()) {
       context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     }
   }
@@ -114,9 +113,11 @@ class PanoramicCompassComponent final : public runtime::Component {
     if (mask_.add(stamp_ns, *panorama, yaw_rad)) set_seen(mask_.seen());
   }
 
+  bool learns_mask() const { return parameters_.learn_vehicle_mask && parameters_.vehicle_mask.empty(); }
+
   /// Waits for a heading, unless an earlier one does.
   void learn_from(const std::shared_ptr<const sensor_msgs::msg::Image>& message) {
-    if (!learns_) return;
+    if (!learns_mask()) return;
     const bool is_waited_for =
         to_learn_ && conversions::stamp_ns(*message) - conversions::stamp_ns(*to_learn_) <= kMaxApart_ns;
     if (!is_waited_for) to_learn_ = message;
@@ -196,7 +197,6 @@ class PanoramicCompassComponent final : public runtime::Component {
   Eigen::Matrix3d base_from_panorama_;
   vision::PanoramaWatch watch_;
   std::optional<PanoramicCompass> compass_;
-  bool learns_ = false;
   std::shared_ptr<const sensor_msgs::msg::Image> to_learn_;  // until its heading is known
   vision::VehicleMask mask_;
   cv::Mat seen_;  // empty: nothing is known of the vehicle

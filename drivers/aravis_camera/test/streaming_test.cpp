@@ -77,18 +77,19 @@ TEST_F(GigECameras, BothHalvesOfAPairBearOneStampAndWereTakenTogether) {
   const auto left = seen(kLeft), right = seen(kRight);
   ASSERT_EQ(left.size(), right.size());
   constexpr std::int64_t kHalfAPeriod_ns = 8'000'000;  // of 60 Hz
-  std::size_t apart = 0;
+  // A busy host may receive the first frames of one camera late, and so pair frames of neighbouring times.
+  constexpr std::size_t kFirst = 3;
   for (std::size_t i = 0; i < left.size(); ++i) {
     ASSERT_EQ(left[i].stamp_ns, right[i].stamp_ns);
     ASSERT_EQ(left[i].picture.camera, 0u);
     ASSERT_EQ(right[i].picture.camera, 1u);
-    if (std::abs(left[i].picture.taken_ns - right[i].picture.taken_ns) > kHalfAPeriod_ns) ++apart;
+    if (i >= kFirst) {
+      ASSERT_LT(std::abs(left[i].picture.taken_ns - right[i].picture.taken_ns), kHalfAPeriod_ns) << i;
+    }
     if (i > 0) {
       ASSERT_GT(left[i].stamp_ns, left[i - 1].stamp_ns);
     }
   }
-  // On a busy host, whose first packets all come late, neighbours may be taken for a pair until one comes in time.
-  EXPECT_LE(apart, left.size() / 10);
 }
 
 TEST_F(GigECameras, CountTheFramesWhoseNumbersAreLeftOut) {

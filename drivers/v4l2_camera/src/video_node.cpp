@@ -7,6 +7,8 @@
 #include <fstream>
 #include <functional>
 
+#include "usb_interface.hpp"
+
 namespace panvo::v4l2_camera {
 namespace {
 
@@ -20,21 +22,14 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-/// The sysfs folder of the node's USB device, which is the parent of its interface; empty: not a USB device.
-fs::path usb_device(const fs::path& node) {
-  std::error_code error;
-  const fs::path interface = fs::canonical(node / "device", error);
-  if (error || !fs::exists(interface / "bInterfaceNumber", error)) return {};
-  return interface.parent_path();
-}
-
 VideoNode read_node(const fs::path& folder, const fs::path& devices) {
   VideoNode node;
   node.path = (devices / folder.filename()).string();
   node.name = first_line(folder / "name");
   const std::string index = first_line(folder / "index");
   node.index = index.empty() ? 0 : std::atoi(index.c_str());
-  if (const fs::path usb = usb_device(folder); !usb.empty()) {
+  if (const fs::path interface = usb_interface(folder); !interface.empty()) {
+    const fs::path usb = interface.parent_path();  // the device
     node.serial = first_line(usb / "serial");
     node.vendor = first_line(usb / "manufacturer");
     if (node.vendor.empty()) node.vendor = first_line(usb / "idVendor");

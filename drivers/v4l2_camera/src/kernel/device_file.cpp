@@ -15,6 +15,8 @@
 #include <thread>
 #include <utility>
 
+#include "usb_interface.hpp"
+
 namespace panvo::v4l2_camera::kernel {
 namespace {
 
@@ -23,11 +25,7 @@ namespace fs = std::filesystem;
 fs::path usb_interface_of(int descriptor) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) return {};
-  std::error_code error;
-  const fs::path folder =
-      fs::canonical(fmt::format("/sys/dev/char/{}:{}/device", major(status.st_rdev), minor(status.st_rdev)), error);
-  if (error || !fs::exists(folder / "bInterfaceNumber", error)) return {};
-  return folder;
+  return usb_interface(fmt::format("/sys/dev/char/{}:{}", major(status.st_rdev), minor(status.st_rdev)));
 }
 
 /// The kernel deletes the folder of a USB interface after its driver has released the camera.

@@ -26,8 +26,8 @@ class YawBiasDetector {
   /// `window_s`: time over which disagreements are summed; `sigmas`: threshold for their sum.
   YawBiasDetector(double window_s, double sigmas) : window_s_(window_s), sigmas_(sigmas) {}
 
-  /// Adds a turn; of several against one reference panorama the last counts, and the correction of the one before is
-  /// taken back. Returns nullopt while there is no bias. Turns that are not consecutive restart the sum.
+  /// Adds a turn. A later turn against the same reference panorama replaces the earlier one, whose correction the caller
+  /// undoes. Returns nullopt while there is no bias. A gap between turns restarts the sum.
   std::optional<Bias> add(const Stretch& turn);
   /// Restarts the sum.
   void forget() { *this = YawBiasDetector(window_s_, sigmas_); }
