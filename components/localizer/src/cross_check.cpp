@@ -28,7 +28,8 @@ constexpr double kAlike_rad = 0.005;             // error common to the directio
 constexpr double kCameraApart_m = 1.0;           // from base_link, which in a bend moves in another direction
 constexpr double kMinWay_m = 0.1;                // for a defined direction
 constexpr double kClearlyMoved_m = 0.5;          // far enough to be visible in objects beside the path
-constexpr double kNoDirection_rad2 = 0.5 * 0.5;  // nothing moves: everything is farther than a thousand path lengths
+constexpr double kNoDirection_rad2 = 0.5 * 0.5;  // unknown: nothing moves, or several motions explain the panoramas
+constexpr double kFarthest_m = 1000.0;           // what moves less beside the path than objects there does not move
 constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // objects beside the path are farther away, in the median
 constexpr double kSameAngle_rad = 0.1;
 constexpr double kLasting_m = 30.0;
@@ -208,9 +209,9 @@ auto CrossCheck::judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& 
     return verdict;
   }
   if (length_m < kMinWay_m) return verdict;
-  const bool do_panoramas_stand = azimuth.motion_azimuth_variance_rad2 > kNoDirection_rad2;
-  if (do_panoramas_stand) {
-    if (length_m > kClearlyMoved_m) verdict.off_m = length_m;
+  if (azimuth.motion_azimuth_variance_rad2 > kNoDirection_rad2) {
+    const bool do_panoramas_stand = std::abs(azimuth.side_parallax_rad) < length_m / kFarthest_m;
+    if (do_panoramas_stand && length_m > kClearlyMoved_m) verdict.off_m = length_m;
     return verdict;
   }
   const double in_bend_rad = kCameraApart_m * odometry.turn_rad / length_m;

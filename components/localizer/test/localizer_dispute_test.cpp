@@ -41,9 +41,10 @@ class Straight {
     odometry_.is_reliable = is_reliable;
     localizer.add(odometry_);
     if (frame_ % kFramesAPanorama != 0 || !has_panoramas) return;
+    const bool is_direction_known = speed_m_s != 0.0 && !is_in_field;
     last_use = localizer.add(AzimuthMeasurement{odometry_.stamp_ns - kFramesAPanorama * kFrame_ns, odometry_.stamp_ns,
-                                                compass_rad, 1e-8, camera_turned_rad, speed_m_s == 0.0 ? 1.0 : 1e-5,
-                                                speed_m_s * 0.2 / 20.0});
+                                                compass_rad, 1e-8, camera_turned_rad, is_direction_known ? 1e-5 : 1.0,
+                                                speed_m_s * 0.2 / (is_in_field ? 200.0 : 20.0)});
     compass_rad = 0.0;
   }
 
@@ -83,6 +84,7 @@ class Straight {
   std::optional<double> mover_m_s;
   double rig_turned_rad = 0.0, camera_turned_rad = 0.0, compass_rad = 0.0;
   bool has_panoramas = true, is_reliable = true;
+  bool is_in_field = false;  // everything is 200 m away, and the panoramas do not tell the direction
   AzimuthUse last_use = AzimuthUse::kNotUsed;
 
  private:
@@ -97,6 +99,14 @@ TEST(LocalizerDispute, AgreesWithAVehicleThatDrivesAsBothSay) {
   EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
   EXPECT_TRUE(vehicle.is_usable());
   EXPECT_LT(vehicle.sigma_m(), 0.2);
+}
+
+TEST(LocalizerDispute, TakesNoUnknownDirectionForAVehicleThatStands) {
+  Straight drive;
+  drive.is_in_field = true;
+  drive.drive(10.0);
+  EXPECT_EQ(drive.localizer.latest().state, State::kTracking);
+  EXPECT_LT(drive.sigma_m(), 0.1);
 }
 
 TEST(LocalizerDispute, CoversWhatAMoverBeforeBothEyesTakesItAlong) {

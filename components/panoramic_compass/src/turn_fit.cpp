@@ -7,7 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
+#include "great_circles.hpp"
+#include "panvo/vision/angle.hpp"
 #include "panvo/vision/median.hpp"
 #include "panvo/vision/pose.hpp"
 #include "panvo/vision/robust_loss.hpp"
@@ -15,7 +19,6 @@
 namespace panvo::panoramic_compass {
 namespace {
 
-using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
 constexpr int kDirections = 4;       // tried drift directions over half a turn; orient() chooses the sign
@@ -29,88 +32,19 @@ constexpr int kSectors = 16;
 constexpr double kSettled_rad = 1e-6;
 constexpr double kLossScale = 2.0;       // standard deviations
 constexpr double kBeside = 0.3;          // sine: ahead and behind, parallax tells no distance
-constexpr double kAgrees = 3.0;          // standard deviations
 constexpr double kMaxNoise = 9.0;        // of the stated variances: points farther off are outliers
-constexpr double kNearPole = 0.05;       // sine: nearer to the drift direction, the great circle is undefined
 constexpr double kTiltSigma_rad = 0.05;  // roll and pitch between two panoramas, road vehicle
 constexpr double kSlopeSigma = 0.2;      // vertical component of the drift, road vehicle
 constexpr double kMinSpread_rad = 3e-4;
+constexpr double kSure_rad = vision::kDegree;  // of the drift azimuth; half of it between buildings
+constexpr double kMoves_rad = 1e-3;            // typical parallax; of less, no direction makes a turn
+constexpr int kOthers = 12;                    // directions over a full turn from which other motions are sought
+constexpr double kAlike = 4.0;                 // points whose errors are alike count as one
 
-/// State of the fit: rotation and drift direction; the latter is parametrised along two tangents.
-struct Motion {
-  Eigen::Matrix3d rotation;
-  Eigen::Vector3d drift;
-
-  std::array<Eigen::Vector3d, 2> tangents() const {
-    const Eigen::Vector3d level = Eigen::Vector3d::UnitZ().cross(drift).normalized();
-    return {level, drift.cross(level)};
-  }
-  Motion moved(const Vector5d& step) const {
-    const auto [level, upright] = tangents();
-    const Eigen::Vector3d turned = drift + step(3) * level + step(4) * upright;
-    return {vision::so3_exp(step.head<3>()) * rotation, turned.normalized()};
-  }
+struct NormalEquations {
+  Matrix5d hessian = Matrix5d::Zero();
+  Vector5d gradient = Vector5d::Zero();
 };
-
-/// Deviation of a point from its great circle.
-struct Deviation {
-  double across = 0.0, along = 0.0;                    // rad
-  double across_variance = 1.0, along_variance = 1.0;  // of the measurement
-  double sine = 0.0;                                   // of the angle to the drift direction
-  Eigen::Vector3d normal;                              // of the plane of the circle
-  Eigen::Vector3d lever;                               // lever arm of the derivatives
-  Eigen::Vector3d predicted;                           // position of a far point
-};
-
-std::optional<Deviation> deviation_of(const BearingPair& pair, const Motion& motion) {
-  Deviation d;
-  d.predicted = motion.rotation * pair.then;
-  const Eigen::Vector3d cross = d.predicted.cross(motion.drift);
-  d.sine = cross.norm();
-  if (d.sine < kNearPole) return std::nullopt;
-  d.normal = cross / d.sine;
-  const double q = pair.now.dot(d.normal);
-  d.across = std::asin(std::clamp(q, -1.0, 1.0));
-  d.along = std::atan2(pair.now.dot(d.normal.cross(d.predicted)), pair.now.dot(d.predicted));
-  d.lever = (pair.now - q * d.normal) / d.sine;
-  const Eigen::Vector3d azimuth = Eigen::Vector3d::UnitZ().cross(pair.now).normalized();
-  const Eigen::Vector3d elevation = pair.now.cross(azimuth);
-  const Eigen::Vector3d forward = d.normal.cross(pair.now);
-  const auto variance = [&](const Eigen::Vector3d& direction) {
-    return pair.variance_rad2.x() * std::pow(direction.dot(azimuth), 2) +
-           pair.variance_rad2.y() * std::pow(direction.dot(elevation), 2);
-  };
-  d.across_variance = variance(d.normal);
-  d.along_variance = variance(forward);
-  return d;
-}
-
-/// Chooses the sign of the drift so that near points move towards it.
-void orient(std::span<const BearingPair> pairs, Motion& motion) {
-  double sum = 0.0;
-  for (const BearingPair& pair : pairs) {
-    const auto d = deviation_of(pair, motion);
-    if (d && d->across * d->across < kAgrees * kAgrees * d->across_variance) sum += std::clamp(d->along, -0.1, 0.1);
-  }
-  if (sum < 0.0) motion.drift = -motion.drift;
-}
-
-/// Squared deviation across the great circle or backwards along it, whichever is larger, in standard deviations
-/// squared.
-double disagreement(const Deviation& d, double noise) {
-  const double across = d.across * d.across / (noise * d.across_variance);
-  const double behind = d.along < 0.0 ? d.along * d.along / (noise * d.along_variance) : 0.0;
-  return std::max(across, behind);
-}
-
-/// Truncated sum over all points; unlike the cost of a fit, comparable between motions.
-double total_disagreement(std::span<const BearingPair> pairs, const Motion& motion, double noise) {
-  double total = 0.0;
-  for (const BearingPair& pair : pairs) {
-    if (const auto d = deviation_of(pair, motion)) total += std::min(disagreement(*d, noise), kAgrees * kAgrees);
-  }
-  return total;
-}
 
 class Solver {
  public:
@@ -123,18 +57,17 @@ class Solver {
       gauge(motion);
       // Initially all residuals may be large; later, large ones are outliers and must not inflate the noise estimate.
       noise_ = std::min(noise_, std::max(kMaxNoise, kFirstNoise * std::pow(kNoiseFall, i)));
-      Matrix5d hessian = Matrix5d::Zero();
-      Vector5d gradient = Vector5d::Zero();
-      cost = accumulate(motion, hessian, [&](const Deviation&) -> Vector5d& { return gradient; });
-      add_prior(motion, hessian, gradient);
-      const Eigen::LDLT<Matrix5d> solver(hessian);
+      NormalEquations equations;
+      cost = accumulate(motion, [&](const Deviation&) -> NormalEquations& { return equations; });
+      add_prior(motion, equations);
+      const Eigen::LDLT<Matrix5d> solver(equations.hessian);
       if (solver.info() != Eigen::Success || !solver.isPositive()) return std::numeric_limits<double>::infinity();
-      Vector5d step = -solver.solve(gradient);
+      Vector5d step = -solver.solve(equations.gradient);
       if (!step.allFinite()) return std::numeric_limits<double>::infinity();
       const double length = step.norm();
       if (length > 0.5) step *= 0.5 / length;
       motion = motion.moved(step);
-      hessian_ = hessian;
+      hessian_ = equations.hessian;
       if (length < kSettled_rad) break;
     }
     return cost;
@@ -158,19 +91,18 @@ class Solver {
     spread_ = std::max(kMinSpread_rad, 3.0 * typical_);
   }
 
-  /// Builds the normal equations at the motion of the last gauge(). `gradient_of` returns the gradient that a deviation
-  /// adds to.
-  template <class GradientOf>
-  double accumulate(const Motion& motion, Matrix5d& hessian, const GradientOf& gradient_of) const {
+  /// Builds normal equations at the motion of the last gauge(). `equations_of` returns those that a deviation adds to.
+  template <class EquationsOf>
+  double accumulate(const Motion& motion, const EquationsOf& equations_of) const {
     const vision::CauchyLoss loss(kLossScale);
     const auto tangents = motion.tangents();
     double cost = 0.0;
-    const auto add = [&](double residual, double variance, const Vector5d& jacobian, Vector5d& gradient) {
+    const auto add = [&](double residual, double variance, const Vector5d& jacobian, NormalEquations& equations) {
       const double square = residual * residual / variance;
       const double weight = loss.weight(square) / variance;
       cost += loss.cost(square);
-      hessian.noalias() += weight * jacobian * jacobian.transpose();
-      gradient.noalias() += weight * residual * jacobian;
+      equations.hessian.noalias() += weight * jacobian * jacobian.transpose();
+      equations.gradient.noalias() += weight * residual * jacobian;
     };
     for (const Deviation& d : deviations_) {
       Vector5d jacobian = Vector5d::Zero();
@@ -178,16 +110,17 @@ class Solver {
       const Eigen::Vector3d by_drift = d.lever.cross(d.predicted);
       jacobian(3) = by_drift.dot(tangents[0]);
       jacobian(4) = by_drift.dot(tangents[1]);
-      add(d.across, noise_ * d.across_variance, jacobian, gradient_of(d));
+      add(d.across, noise_ * d.across_variance, jacobian, equations_of(d));
       jacobian.setZero();
       jacobian.head<3>() = -d.normal;
-      add(d.along, noise_ * d.along_variance + std::pow(spread_ * d.sine, 2), jacobian, gradient_of(d));
+      add(d.along, noise_ * d.along_variance + std::pow(spread_ * d.sine, 2), jacobian, equations_of(d));
     }
     return cost;
   }
 
   /// Priors for a vehicle on a road.
-  void add_prior(const Motion& motion, Matrix5d& hessian, Vector5d& gradient) const {
+  void add_prior(const Motion& motion, NormalEquations& equations) const {
+    auto& [hessian, gradient] = equations;
     const Eigen::Vector3d tilt = vision::so3_log(motion.rotation * start_.transpose());
     for (int axis = 0; axis < 2; ++axis) {
       hessian(axis, axis) += 1.0 / (kTiltSigma_rad * kTiltSigma_rad);
@@ -230,25 +163,56 @@ class Solver {
   double share_that_agrees(const Motion& motion) const {
     const auto agreeing = std::count_if(pairs_.begin(), pairs_.end(), [&](const BearingPair& pair) {
       const auto d = deviation_of(pair, motion);
-      return !d || disagreement(*d, kMaxNoise) < kAgrees * kAgrees;
+      return !d || disagreement(*d, kMaxNoise) < kAgreeing;
     });
     return static_cast<double>(agreeing) / static_cast<double>(pairs_.size());
   }
 
-  /// Covariance of rotation and drift for correlated errors of neighbouring points: sandwich estimate from the
-  /// gradients of the sectors of the full turn.
+  /// Covariance of rotation and drift for correlated errors of neighbouring points: jackknife, from how much the fit
+  /// would change without each sector of the full turn. Few points that decide alone leave small residuals, but show in
+  /// this.
   Matrix5d covariance_by_sectors(const Motion& motion) const {
-    std::array<Vector5d, kSectors> pulls;
-    pulls.fill(Vector5d::Zero());
-    Matrix5d hessian = Matrix5d::Zero();
-    accumulate(motion, hessian, [&](const Deviation& d) -> Vector5d& {
+    std::array<NormalEquations, kSectors> sectors;
+    accumulate(motion, [&](const Deviation& d) -> NormalEquations& {
       const double turn = std::atan2(d.predicted.y(), d.predicted.x()) / (2.0 * std::numbers::pi) + 0.5;
-      return pulls[static_cast<std::size_t>(std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1))];
+      return sectors[static_cast<std::size_t>(std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1))];
     });
+    NormalEquations all;
+    add_prior(motion, all);
+    for (const auto& sector : sectors) all.hessian += sector.hessian;
     Matrix5d spread = Matrix5d::Zero();
-    for (const Vector5d& pull : pulls) spread += pull * pull.transpose();
-    const Matrix5d inverse = hessian.inverse();
-    return kSectors / (kSectors - 3.0) * inverse * spread * inverse;
+    for (const auto& sector : sectors) {
+      const Vector5d change = Matrix5d(all.hessian - sector.hessian).ldlt().solve(sector.gradient);
+      spread += change * change.transpose();
+    }
+    return (kSectors - 1.0) / kSectors * spread;
+  }
+
+  /// Mean square differences of yaw and drift azimuth from the other motions that explain the points about as well. In
+  /// open land, where all points are near the horizon, a turn looks much like motion in another direction.
+  std::pair<double, double> spread_of_others(const Motion& best) {
+    std::vector<Motion> motions{best};
+    gauge(best);
+    double noise = noise_;
+    for (int i = 1; i < kOthers; ++i) {
+      const Eigen::AngleAxisd turn(2.0 * std::numbers::pi * i / kOthers, Eigen::Vector3d::UnitZ());
+      Motion other{best.rotation, turn * best.drift};
+      if (!std::isfinite(iterate(other, kTrialIterations))) continue;
+      orient(pairs_, other);
+      gauge(other);
+      noise = std::min(noise, noise_);
+      motions.push_back(other);
+    }
+    const double best_disagreement = total_disagreement(pairs_, best, noise);
+    double weights = 0.0, yaw_rad2 = 0.0, drift_azimuth_rad2 = 0.0;
+    for (const Motion& motion : motions) {
+      const double more = total_disagreement(pairs_, motion, noise) - best_disagreement;
+      const double weight = std::exp(-0.5 * std::max(0.0, more) / kAlike);
+      weights += weight;
+      yaw_rad2 += weight * std::pow(vision::wrapped(yaw_of(motion) - yaw_of(best)), 2);
+      drift_azimuth_rad2 += weight * std::pow(vision::wrapped(azimuth_of(motion) - azimuth_of(best)), 2);
+    }
+    return {yaw_rad2 / weights, drift_azimuth_rad2 / weights};
   }
 
   double noise() const { return noise_; }
@@ -287,13 +251,13 @@ std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen:
   TurnFit fit;
   fit.now_from_then = best.rotation;
   fit.drift = best.drift;
-  fit.yaw_rad = std::atan2(best.rotation(0, 1), best.rotation(0, 0));
+  fit.yaw_rad = yaw_of(best);
   fit.typical_parallax = solver.typical();
   double parallax = 0.0, squared_parallax = 0.0;
   for (const BearingPair& pair : pairs) {
     const auto d = deviation_of(pair, best);
     const double allowed = std::min(solver.noise(), kMaxNoise);
-    const bool agrees = !d || disagreement(*d, allowed) < kAgrees * kAgrees;
+    const bool agrees = !d || disagreement(*d, allowed) < kAgreeing;
     fit.agrees.push_back(agrees);
     fit.agreeing += agrees ? 1 : 0;
     if (!d || !agrees || d->sine < kBeside) continue;
@@ -307,6 +271,11 @@ std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen:
   };
   fit.yaw_variance_rad2 = variance_of(2);
   fit.drift_azimuth_variance_rad2 = variance_of(3);
+  if (fit.drift_azimuth_variance_rad2 > kSure_rad * kSure_rad && fit.typical_parallax > kMoves_rad) {
+    const auto [yaw_rad2, drift_azimuth_rad2] = solver.spread_of_others(best);
+    fit.yaw_variance_rad2 += yaw_rad2;
+    fit.drift_azimuth_variance_rad2 += drift_azimuth_rad2;
+  }
   return fit;
 }
 

@@ -127,6 +127,32 @@ TEST(TurnFit, HasAnHonestVariance) {
   EXPECT_LT(whitened / kRuns, 1.5);
 }
 
+TEST(TurnFit, IsHonestInFieldsWhereAllPointsAreNearTheHorizon) {
+  double whitened = 0.0, whitened_drift = 0.0;
+  constexpr int kRuns = 200;
+  Scene scene(7);
+  const Eigen::Isometry3d now_from_then = moved({8.0, -0.5, 0.0}, 0.2);
+  const Eigen::Vector3d drift = now_from_then.translation();
+  for (int run = 0; run < kRuns; ++run) {
+    std::vector<BearingPair> pairs;
+    for (int i = 0; i < 45; ++i) {  // woods: nearer on the left, none ahead; a fifth badly tracked
+      const double azimuth = scene.between(0.6, 5.4), elevation = scene.between(-0.01, 0.1);
+      const double range_m = azimuth < 3.0 ? scene.between(70.0, 110.0) : scene.between(120.0, 250.0);
+      auto pair = scene.pair(range_m * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), elevation), now_from_then);
+      const double off_rad = i % 5 == 0 ? 0.006 : 0.001;
+      pair.now = (pair.now + off_rad * Eigen::Vector3d(scene.normal(), scene.normal(), scene.normal())).normalized();
+      pairs.push_back(pair);
+    }
+    const auto fit = fit_turn(pairs, vision::so3_exp({0.0, 0.0, -0.19}));
+    ASSERT_TRUE(fit);
+    whitened += std::pow(fit->yaw_rad - 0.2, 2) / fit->yaw_variance_rad2;
+    const double drift_off_rad = std::atan2(fit->drift.y(), fit->drift.x()) - std::atan2(drift.y(), drift.x());
+    whitened_drift += std::pow(vision::wrap(drift_off_rad, 2.0 * M_PI), 2) / fit->drift_azimuth_variance_rad2;
+  }
+  EXPECT_LT(whitened / kRuns, 2.0);
+  EXPECT_LT(whitened_drift / kRuns, 2.0);
+}
+
 TEST(TurnFit, NeedsSixPoints) {
   Scene scene(5);
   EXPECT_FALSE(fit_turn(scene.pairs(5, moved({1.0, 0.0, 0.0}, 0.0)), Eigen::Matrix3d::Identity()));

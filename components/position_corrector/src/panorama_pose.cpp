@@ -249,7 +249,8 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   result.reason = objection(refined.landmark_from_panorama, heading_rad, parameters);
   if (!result.reason.empty()) return result;
   result.points = matches_of(guided, matched);
-  const PanoramaPose pose{refined.landmark_from_panorama, by_choice(guided.size()) * refined.covariance,
+  const auto covariance = covariance_without_most_informative(refined, guided, sigma_rad, parameters.spare_points);
+  const PanoramaPose pose{refined.landmark_from_panorama, by_choice(guided.size()) * covariance,
                           heading_of(refined.landmark_from_panorama.linear())};
   if (result.inliers < needed) {
     result.weak_pose = pose;

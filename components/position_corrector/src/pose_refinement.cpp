@@ -3,9 +3,12 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "panvo/vision/robust_loss.hpp"
 
@@ -75,6 +78,35 @@ double cost_of(const Eigen::Isometry3d& pose, std::span<const SightedPoint> sigh
   return cost;
 }
 
+/// The sightings at a pose, with their robust weights.
+struct Fit {
+  std::vector<vision::Matrix6d> information;  // of each
+  double squares = 0.0, freedom = 0.0;
+};
+
+Fit fit_at(const Eigen::Isometry3d& pose, std::span<const SightedPoint> sightings, double bearing_sigma_rad) {
+  const vision::CauchyLoss loss(kLossScale);
+  Fit fit;
+  double weights = 0.0;
+  for (const auto& sighting : sightings) {
+    const auto term = whitened(sighting, pose, bearing_sigma_rad);
+    if (!term) continue;
+    const double square = term->residual.squaredNorm();
+    const double weight = loss.weight(square);
+    fit.information.emplace_back(weight * term->jacobian.transpose() * term->jacobian);
+    fit.squares += weight * square;
+    weights += weight;
+  }
+  fit.freedom = 2.0 * weights - 6.0;
+  return fit;
+}
+
+vision::Matrix6d sum_of(const std::vector<vision::Matrix6d>& information) {
+  vision::Matrix6d sum = vision::Matrix6d::Zero();
+  for (const auto& one : information) sum += one;
+  return sum;
+}
+
 }  // namespace
 
 double squared_residual(const SightedPoint& sighting, const Eigen::Isometry3d& landmark_from_panorama,
@@ -119,28 +151,41 @@ RefinedPose refine_pose(const Eigen::Isometry3d& start, std::span<const SightedP
 
   RefinedPose refined;
   refined.landmark_from_panorama = pose;
-  vision::Matrix6d information = vision::Matrix6d::Zero();
-  double squares = 0.0;
-  double weights = 0.0;
-  for (const auto& sighting : sightings) {
-    const auto term = whitened(sighting, pose, bearing_sigma_rad);
-    if (!term) continue;
-    const double square = term->residual.squaredNorm();
-    const double weight = loss.weight(square);
-    information += weight * term->jacobian.transpose() * term->jacobian;
-    squares += weight * square;
-    weights += weight;
-  }
-  const double freedom = 2.0 * weights - 6.0;
-  refined.mean_square = freedom > 0.0 ? squares / freedom : std::numeric_limits<double>::infinity();
+  const auto fit = fit_at(pose, sightings, bearing_sigma_rad);
+  refined.mean_square = fit.freedom > 0.0 ? fit.squares / fit.freedom : std::numeric_limits<double>::infinity();
+  const vision::Matrix6d information = sum_of(fit.information);
   const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> solver(information);
-  if (freedom <= 0.0 || solver.eigenvalues().minCoeff() < 1e-6) {
+  if (fit.freedom <= 0.0 || solver.eigenvalues().minCoeff() < 1e-6) {
     refined.landmark_from_panorama = start;
     refined.covariance = kUndetermined * vision::Matrix6d::Identity();
     return refined;
   }
   refined.covariance = std::max(1.0, refined.mean_square) * information.inverse();
   return refined;
+}
+
+vision::Matrix6d covariance_without_most_informative(const RefinedPose& refined,
+                                                     std::span<const SightedPoint> sightings, double bearing_sigma_rad,
+                                                     int spare) {
+  auto each = fit_at(refined.landmark_from_panorama, sightings, bearing_sigma_rad).information;
+  // What nothing determines has the variance of an undetermined pose.
+  vision::Matrix6d left = sum_of(each) + vision::Matrix6d::Identity() / kUndetermined;
+  vision::Matrix6d covariance = left.inverse();
+  for (; spare > 0 && !each.empty(); --spare) {
+    std::size_t most = 0;
+    double largest = -1.0;
+    for (std::size_t i = 0; i < each.size(); ++i) {
+      const vision::Matrix6d without = (left - each[i]).inverse();
+      const double variance = without.topLeftCorner<3, 3>().trace();
+      if (variance <= largest) continue;
+      largest = variance;
+      most = i;
+      covariance = without;
+    }
+    left -= each[most];
+    each.erase(each.begin() + static_cast<std::ptrdiff_t>(most));
+  }
+  return std::max(1.0, refined.mean_square) * covariance;
 }
 
 }  // namespace panvo::position_corrector

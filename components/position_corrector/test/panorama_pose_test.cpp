@@ -107,7 +107,9 @@ std::vector<Keypoint> eight_points(int times) {
 
 TEST(PanoramaPose, IsLessSureOfFewPointsThanTheirNumberSaysForTheyWereChosenBecauseTheyAgree) {
   const auto few = eight_points(1), many = eight_points(12);
-  const auto by_few = estimate_panorama_pose(few, few, 0.0, {}), by_many = estimate_panorama_pose(many, many, 0.0, {});
+  const PanoramaPoseParameters all_count{.spare_points = 0};
+  const auto by_few = estimate_panorama_pose(few, few, 0.0, all_count);
+  const auto by_many = estimate_panorama_pose(many, many, 0.0, all_count);
   ASSERT_TRUE(by_few.weak_pose) << by_few.reason;
   ASSERT_TRUE(by_many.pose) << by_many.reason;
   ASSERT_EQ(by_few.inliers, 8);

@@ -98,5 +98,57 @@ TEST(PoseRefinement, CountsAPointBehindTheBearingAsInfinitelyFar) {
   EXPECT_TRUE(std::isinf(squared_residual(behind, scene.pose, kSigma_rad)));
 }
 
+/// Woods 100 m away, and near points: in a field these alone tell the position.
+std::vector<SightedPoint> field(Scene& scene, int near_points) {
+  std::vector<SightedPoint> sights;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  const auto add = [&](double azimuth_rad, double range_m, double height_m) {
+    const Eigen::Vector3d point(range_m * std::sin(azimuth_rad), -height_m, range_m * std::cos(azimuth_rad));
+    const double sigma_m = 0.1 * range_m;
+    const Eigen::Vector3d along = point.normalized();
+    sights.push_back({point, sigma_m * sigma_m * along * along.transpose() + 1e-4 * Eigen::Matrix3d::Identity(),
+                      (scene.pose.inverse() * point +
+                       kSigma_rad * range_m * Eigen::Vector3d(normal(random), normal(random), normal(random)))
+                          .normalized()});
+  };
+  for (int i = 0; i < 12; ++i) add(0.2 + 0.1 * i, 100.0 + 7.0 * i, 4.0 + i % 5);
+  for (int i = 0; i < near_points; ++i) add(0.3 + 2.0 * i, 9.0 + i, -1.5);
+  return sights;
+}
+
+TEST(PoseRefinement, TrustsNoPositionThatOneFalseNearPointAmongFarOnesDecides) {
+  Scene scene(6);
+  auto sights = field(scene, 1);
+  sights.back().bearing = vision::so3_exp(Eigen::Vector3d(0.0, 0.25, 0.0)) * sights.back().bearing;
+  const auto refined = refine_pose(scene.pose, sights, kSigma_rad);
+  const auto error = vision::pose_error(refined.landmark_from_panorama, scene.pose);
+  ASSERT_GT(error.head<3>().norm(), 1.0);
+  EXPECT_GT(error.dot(refined.covariance.ldlt().solve(error)), 50.0);
+  const auto covariance = covariance_without_most_informative(refined, sights, kSigma_rad, 2);
+  EXPECT_LT(error.dot(covariance.ldlt().solve(error)), 16.8);  // 99 % of six degrees of freedom
+}
+
+TEST(PoseRefinement, TrustsAPositionThatManyPointsTell) {
+  Scene scene(7);
+  const auto sights = scene.sights(60, kSigma_rad, 0.1);
+  const auto refined = refine_pose(scene.near(), sights, kSigma_rad);
+  const auto covariance = covariance_without_most_informative(refined, sights, kSigma_rad, 2);
+  EXPECT_TRUE(covariance_without_most_informative(refined, sights, kSigma_rad, 0).isApprox(refined.covariance, 1e-4));
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_GT(covariance(i, i), refined.covariance(i, i));
+    EXPECT_LT(covariance(i, i), 1.5 * refined.covariance(i, i));
+  }
+}
+
+TEST(PoseRefinement, KnowsNothingWithoutTheFewPointsThatItHas) {
+  Scene scene(8);
+  const auto sights = scene.sights(5, kSigma_rad);
+  const auto refined = refine_pose(scene.near(), sights, kSigma_rad);
+  const auto covariance = covariance_without_most_informative(refined, sights, kSigma_rad, 3);
+  EXPECT_GT((covariance.topLeftCorner<3, 3>().trace()), 100.0);
+  EXPECT_TRUE(covariance_without_most_informative(refined, sights, kSigma_rad, 9).allFinite());
+}
+
 }  // namespace
 }  // namespace panvo::position_corrector

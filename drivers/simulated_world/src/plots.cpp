@@ -222,6 +222,7 @@ std::optional<PlannedPlot> fitting_plot(const Site& site, const Wish& wish, cons
 }
 
 std::vector<PlannedPlot> plan_plots(const Site& site) {
+  if (site.parameters.layout == Layout::kFields) return {};
   return site.parameters.layout == Layout::kTwins ? plan_twins(site) : Planner(site).plan();
 }
 

@@ -55,6 +55,16 @@ TEST(Furniture, KeepsOffTheRoadButForCarsParkedAtWideRoadsFarFromJunctions) {
   }
 }
 
+TEST(Furniture, OfFieldsIsWoodsFarFromAnyRoad) {
+  const Town town(6, Layout::kFields);
+  EXPECT_TRUE(town.plots.empty());
+  EXPECT_TRUE(town.scene.lamps.empty());
+  ASSERT_GT(town.scene.standing.size(), 500u);
+  for (const auto& placement : town.scene.standing) {
+    EXPECT_GE(town.site.distance_from_kerb(placement.world_from_model.translation().head<2>().cast<double>()), 69.0);
+  }
+}
+
 TEST(Furniture, EveryLampPostCarriesALight) {
   const Town town(4);
   const auto is_post = [&](const Placement& placement) {

@@ -104,7 +104,7 @@ void describe_options(CLI::App& app, Options& options) {
   app.add_option(
          "--layout", options.layout,
          "rows: equal buildings; twins: pairs of junctions with the same buildings; car_parks: equal bays; hall: "
-         "aisles between shelves under one roof")
+         "aisles between shelves under one roof; fields: meadows, with woods in the distance")
       ->check(CLI::IsMember(kLayoutNames))
       ->capture_default_str();
   app.add_option("--vibration", s.motion.vibration, "scale of the vehicle's vibration; 0: none")

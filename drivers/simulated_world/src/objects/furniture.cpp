@@ -70,6 +70,7 @@ FurnitureModels build_furniture_models(const Palette& palette, std::uint64_t see
 void build_furniture(const Site& site, const std::vector<Plot>& plots, Scene& scene) {
   const FurnitureModels models = build_furniture_models(*site.palette, site.parameters.seed, scene);
   FurniturePlanner planner(site, plots, models, scene);
+  if (site.parameters.layout == Layout::kFields) return planner.plant_horizon();
   // objects with the fewest possible positions come first
   planner.furnish_open_plots();
   planner.furnish_kerbs();

@@ -47,6 +47,7 @@ class FurniturePlanner {
   void plant_rows();          ///< trees along roads
   void plant_at_walls();      ///< shrubs and flowers
   void scatter_trees();       ///< on lawns, and in a belt around the campus
+  void plant_horizon();       ///< woods beyond the fields
 
  private:
   /// Whether an object of that radius (m) fits: off the road, outside buildings, clear of other objects.

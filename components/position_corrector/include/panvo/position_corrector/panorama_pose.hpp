@@ -26,6 +26,7 @@ struct PanoramaPoseParameters {
   double max_turn_deg = 25.0;
   double max_tilt_deg = 20.0;
   double max_offset_m = 25.0;
+  int spare_points = 2;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -57,6 +58,10 @@ struct PanoramaPoseParameters {
           "largest difference between the pose's heading and that of the compressive features", 1.0, 180.0);
     field(&P::max_tilt_deg, "max_tilt_deg", "deg", "largest tilt of the vehicle relative to the landmark", 1.0, 90.0);
     field(&P::max_offset_m, "max_offset_m", "m", "largest distance of a pose from the landmark", 1.0, 200.0);
+    field(&P::spare_points, "spare_points", "1",
+          "inliers that may be false: the covariance is that without the most informative ones, as a near point alone "
+          "determines a position among far ones",
+          0, 100);
   }
 };
 

@@ -32,4 +32,10 @@ double squared_residual(const SightedPoint& sighting, const Eigen::Isometry3d& l
 RefinedPose refine_pose(const Eigen::Isometry3d& start, std::span<const SightedPoint> sightings,
                         double bearing_sigma_rad);
 
+/// Covariance of a refined pose if its `spare` most informative sightings were false. A near point that is false can
+/// determine a position alone, among far ones, and then leaves no residual by which it would be noticed.
+vision::Matrix6d covariance_without_most_informative(const RefinedPose& refined,
+                                                     std::span<const SightedPoint> sightings, double bearing_sigma_rad,
+                                                     int spare);
+
 }  // namespace panvo::position_corrector

@@ -20,6 +20,7 @@ enum class Layout {
   kTwins,     ///< junctions go in pairs with the same buildings along their roads
   kCarParks,  ///< car parks with equal bays instead of buildings
   kHall,      ///< indoors: aisles instead of roads, between pillars and shelves under one roof; flat
+  kFields,    ///< meadows: nothing stands nearer than 70 m to a road
 };
 
 /// Parameters of the campus.

@@ -21,7 +21,7 @@
 namespace panvo::simulation {
 
 /// Names of the layouts, in order of simulated_world::Layout.
-inline const std::vector<std::string> kLayoutNames = {"varied", "rows", "twins", "car_parks", "hall"};
+inline const std::vector<std::string> kLayoutNames = {"varied", "rows", "twins", "car_parks", "hall", "fields"};
 
 /// The layout of that name. Throws std::invalid_argument, with the valid names, for another one.
 simulated_world::Layout layout_of(const std::string& name);
