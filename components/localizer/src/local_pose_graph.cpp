@@ -51,7 +51,7 @@ void LocalPoseGraph::add_built(std::uint32_t id, std::int64_t panorama_ns, const
   node.landmark_id = id;
   node.at = at;
   node.sighting.stamp_ns = panorama_ns;
-  const auto here = carried(at.pose);
+  const auto here = carried(at);
   node.map_from_base = here.map_from_base;
   node.covariance = here.covariance;
   nodes_.push_back(node);
@@ -72,7 +72,7 @@ bool LocalPoseGraph::add_pass(const LandmarkSighting& sighting, const OdometrySa
   node.is_pass = true;
   node.at = at;
   node.sighting = sighting;
-  const auto here = carried(at.pose);
+  const auto here = carried(at);
   node.map_from_base = here.map_from_base;
   node.covariance = here.covariance;
   const auto same_pass = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& other) {
@@ -133,12 +133,12 @@ std::vector<KnownLandmark> LocalPoseGraph::landmarks() const {
   return all;
 }
 
-PoseInMap LocalPoseGraph::carried(const OdometryPose& odometry) const {
-  const auto& from = anchor(odometry.stamp_ns);
-  const bool is_back = odometry.stamp_ns < from.at.pose.stamp_ns;  // before the journey's first node
-  const Eigen::Isometry3d way = way_between(from.at.pose, odometry);
+PoseInMap LocalPoseGraph::carried(const OdometrySample& at) const {
+  const auto& from = anchor(at.pose.stamp_ns);
+  const bool is_back = at.pose.stamp_ns < from.at.pose.stamp_ns;  // before the journey's first node
+  const Eigen::Isometry3d way = way_between(from.at.pose, at.pose);
   const vision::Matrix6d covariance =
-      is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at.pose, odometry);
+      is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at, at);
   return {from.map_from_base * way, vision::compose_covariance(from.map_from_base, from.covariance, way, covariance)};
 }
 
@@ -234,9 +234,10 @@ Eigen::Isometry3d LocalPoseGraph::way_between(const OdometryPose& from, const Od
 }
 
 /// Covariance gained by odometry between two times, in the axes of the first.
-vision::Matrix6d LocalPoseGraph::way_covariance(const OdometryPose& from, const OdometryPose& to) const {
-  const vision::Matrix6d gained = gained_covariance(from, to, 0.0);
-  return is_cut(from.stamp_ns, to.stamp_ns) ? vision::Matrix6d(gained + cut_covariance()) : gained;
+vision::Matrix6d LocalPoseGraph::way_covariance(const OdometrySample& from, const OdometrySample& to) const {
+  const vision::Matrix6d gained =
+      gained_covariance(from.pose, to.pose, 0.0) + covariance_of_turns(from, to, turn_errors_);
+  return is_cut(from.pose.stamp_ns, to.pose.stamp_ns) ? vision::Matrix6d(gained + cut_covariance()) : gained;
 }
 
 }  // namespace panvo::localizer

@@ -40,9 +40,9 @@ bool LocalPoseGraph::solve() {
   for (const auto& node : nodes_) graph.poses.push_back(node.map_from_base);
   const auto order = journey_order();
   for (std::size_t i = 1; i < order.size(); ++i) {
-    const auto& a = nodes_[order[i - 1]].at.pose;
-    const auto& b = nodes_[order[i]].at.pose;
-    graph.edges.push_back({order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base,
+    const auto& a = nodes_[order[i - 1]].at;
+    const auto& b = nodes_[order[i]].at;
+    graph.edges.push_back({order[i - 1], order[i], a.pose.odom_from_base.inverse() * b.pose.odom_from_base,
                            with_least_variance(way_covariance(a, b)), false, true});
   }
   bool is_anchored = is_placed_;  // by something other than the start of the journey
@@ -146,7 +146,7 @@ void LocalPoseGraph::add_fix(const GnssFix& fix, const OdometrySample& at) {
   Node node;
   node.fix = fix;
   node.at = at;
-  const auto here = carried(at.pose);
+  const auto here = carried(at);
   node.map_from_base = here.map_from_base;
   node.covariance = here.covariance;
   nodes_.push_back(node);
@@ -169,11 +169,11 @@ void LocalPoseGraph::thin_out_fixes() {
   nodes_.erase(nodes_.begin() + static_cast<std::ptrdiff_t>(fixes[least]));
 }
 
-PoseInMap LocalPoseGraph::in_enu(const OdometryPose& odometry) const {
+PoseInMap LocalPoseGraph::in_enu(const OdometrySample& at) const {
   const auto last = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& node) {
     return !node.is_of_earlier_day && node.at.pose.stamp_ns == enu_->solved_ns;
   });
-  const Node& from = last != nodes_.end() ? *last : anchor(odometry.stamp_ns);
+  const Node& from = last != nodes_.end() ? *last : anchor(at.pose.stamp_ns);
   // Errors as vision::pose_error, of enu_from_base = map_from_enu^-1 * map_from_base to first order.
   const Eigen::Isometry3d enu_from_map = enu_->map_from_enu.inverse();
   vision::Matrix6d by_enu = -vision::Matrix6d::Identity();
@@ -182,10 +182,10 @@ PoseInMap LocalPoseGraph::in_enu(const OdometryPose& odometry) const {
   const vision::Matrix6d in_map_axes =
       from.covariance + by_enu * enu_->covariance * by_enu.transpose() + mixed + mixed.transpose();
   const Eigen::Isometry3d enu_from_node = enu_from_map * from.map_from_base;
-  const Eigen::Isometry3d way = way_between(from.at.pose, odometry);
-  const bool is_back = odometry.stamp_ns < from.at.pose.stamp_ns;
+  const Eigen::Isometry3d way = way_between(from.at.pose, at.pose);
+  const bool is_back = at.pose.stamp_ns < from.at.pose.stamp_ns;
   const vision::Matrix6d gained =
-      is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at.pose, odometry);
+      is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at, at);
   return {enu_from_node * way,
           vision::compose_covariance(enu_from_node, vision::rotate_covariance(enu_from_map.linear(), in_map_axes), way,
                                      gained)};

@@ -80,13 +80,14 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
     smooth_ = odometry.odom_from_base;
   }
   last_raw_ = odometry.odom_from_base;
+  graph_.set_turn_errors(turn_error_.covariance());
   if (odometry.is_reliable) {
     unreliable_since_ns_.reset();
   } else {
     if (!unreliable_since_ns_) unreliable_since_ns_ = odometry.stamp_ns;
     doubtful_ns_ = odometry.stamp_ns;
   }
-  latest_ = localized(chain_.latest().pose);
+  latest_ = localized(chain_.latest());
   return {.is_taken = true, .has_begun_anew = taken.is_new_origin, .reason = {}};
 }
 
@@ -99,7 +100,7 @@ bool Localizer::add_known(const KnownLandmark& landmark) {
     if (!graph_.has_started() || (graph_.has_only_start() && way_m() < kAtStart_m)) is_located_ = false;
   }
   graph_.add_known(landmark);
-  if (graph_.has_started()) latest_ = localized(chain_.latest().pose);
+  if (graph_.has_started()) latest_ = localized(chain_.latest());
   return true;
 }
 
@@ -108,9 +109,9 @@ void Localizer::forget_start(const std::optional<PoseInMap>& last, std::string r
   is_joined_ = false;
   unlocated_reason_ = std::move(reason);
   if (last && graph_.has_started()) {
-    graph_.place(last->map_from_base * graph_.carried(chain_.latest().pose).map_from_base.inverse());
+    graph_.place(last->map_from_base * graph_.carried(chain_.latest()).map_from_base.inverse());
   }
-  if (graph_.has_started()) latest_ = localized(chain_.latest().pose);
+  if (graph_.has_started()) latest_ = localized(chain_.latest());
 }
 
 bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
@@ -144,7 +145,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
     (*sighting)->sighting.stamp_ns -= by_ns;
     (*sighting)->at_ns -= by_ns;
   }
-  latest_ = localized(chain_.latest().pose);
+  latest_ = localized(chain_.latest());
   fix_trial_.clear();
   // Measurements between two panoramas would mix two clocks.
   lean_.forget();
@@ -192,10 +193,10 @@ std::vector<Doubt> Localizer::doubts() const {
   return doubts;
 }
 
-LocalizedPose Localizer::localized(const OdometryPose& odometry) const {
-  const auto here = expected(odometry);
+LocalizedPose Localizer::localized(const OdometrySample& at) const {
+  const auto here = expected(at);
   LocalizedPose pose;
-  pose.stamp_ns = odometry.stamp_ns;
+  pose.stamp_ns = at.pose.stamp_ns;
   pose.map_from_base = here.map_from_base;
   pose.covariance = here.covariance;
   pose.odom_from_base = smooth_;
@@ -204,8 +205,8 @@ LocalizedPose Localizer::localized(const OdometryPose& odometry) const {
   return pose;
 }
 
-PoseInMap Localizer::expected(const OdometryPose& odometry) const {
-  auto here = graph_.carried(odometry);
+PoseInMap Localizer::expected(const OdometrySample& at) const {
+  auto here = graph_.carried(at);
   here.covariance += common_covariance(here.map_from_base.translation());
   return here;
 }

@@ -81,7 +81,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   azimuth_ns_ = to_ns;
   pending_yaw_correction_rad_ += vision::wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
   graph_.refresh(chain_, std::min(from_ns, unsure_since_ns.value_or(from_ns)));
-  latest_ = localized(chain_.latest().pose);
+  latest_ = localized(chain_.latest());
   if (wrong == Wrong::kPanoramas) return AzimuthUse::kDoubted;
   return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
 }
@@ -144,7 +144,7 @@ void Localizer::set_clock(double ahead_s, std::int64_t panorama_stamp_ns) {
   graph_.set_clock(chain_, clock_.estimate_ns(), clock_proven_ns_);
   clock_proven_ns_ = panorama_stamp_ns;
   graph_.solve();
-  latest_ = localized(chain_.latest().pose);
+  latest_ = localized(chain_.latest());
 }
 
 /// Turns against one reference panorama share its error: the latest, longest one replaces those before.

@@ -31,7 +31,7 @@ FixOutcome Localizer::add(const GnssFix& received) {
   corrected.add_fix(fix, *at);
   if (!corrected.solve()) return {FixUse::kRejected, "the pose graph could not be solved"};
   graph_ = std::move(corrected);
-  latest_ = localized(chain_.latest().pose);
+  latest_ = localized(chain_.latest());
   return {FixUse::kUsed, {}};
 }
 
@@ -43,7 +43,7 @@ FixOutcome Localizer::try_fixes(const GnssTrial::Sample& sample, double least_m)
   if (!result->agrees) return {FixUse::kOnTrial, result->reason};
   LocalPoseGraph corrected = graph_;
   const Eigen::Isometry3d map_from_odom =
-      graph_.carried(sample.at.pose).map_from_base * sample.at.pose.odom_from_base.inverse();
+      graph_.carried(sample.at).map_from_base * sample.at.pose.odom_from_base.inverse();
   // Landmarks that were seen tell more than the satellites of an earlier journey.
   const bool locates = known_enu_ && graph_.has_known() && !(is_located_ && is_joined_);
   if (locates) {
@@ -63,12 +63,12 @@ FixOutcome Localizer::try_fixes(const GnssTrial::Sample& sample, double least_m)
     is_located_ = is_joined_ = true;
     found_at_way_m_ = sample.at.way_m;
   }
-  latest_ = localized(chain_.latest().pose);
+  latest_ = localized(chain_.latest());
   return {FixUse::kBegun, {}};
 }
 
 bool Localizer::is_expected(const GnssFix& fix, const OdometrySample& at) const {
-  const auto here = graph_.in_enu(at.pose);
+  const auto here = graph_.in_enu(at);
   const auto delay = graph_.fix_delay();
   const Eigen::Matrix3d& turned = here.map_from_base.linear();
   const Eigen::Vector3d arm = turned * (fix.antenna_in_base_m - delay.value * fix.velocity_in_base_m_s);

@@ -39,7 +39,7 @@ Correction Localizer::add(const LandmarkSighting& received) {
   if (!at) return rejected("no odometry stored for that time");
   const auto landmark = graph_.landmark(sighting.landmark_id);
   if (!landmark) return rejected(fmt::format("landmark {} is not known", sighting.landmark_id));
-  correction.map_from_base_before = correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
+  correction.map_from_base_before = correction.map_from_base_after = graph_.carried(*at).map_from_base;
   mounting_.add(sighting, *at);  // the path along a pass shows the mounting, wherever the landmark is
   const Verdict verdict = judge(sighting, *landmark, *at);
   correction.chi_square = verdict.chi_square;
@@ -48,7 +48,7 @@ Correction Localizer::add(const LandmarkSighting& received) {
     return rejected(verdict.objection);
   }
 
-  const bool was_unknown = !is_located_ || localized(chain_.latest().pose).state == State::kLost;
+  const bool was_unknown = !is_located_ || localized(chain_.latest()).state == State::kLost;
   const bool joins = !is_joined_ && graph_.is_known(sighting.landmark_id);
   LocalPoseGraph corrected = graph_;
   if (verdict.cut_ns) corrected.cut(*verdict.cut_ns);
@@ -72,8 +72,8 @@ Correction Localizer::add(const LandmarkSighting& received) {
   if (was_unknown || joins) found_at_way_m_ = at->way_m;
   if (!azimuth_ns_) check_.confirm_pose(at->pose.stamp_ns);  // with a compass, the panoramas decide
   correction.kind = CorrectionKind::kApplied;
-  correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
-  latest_ = localized(chain_.latest().pose);
+  correction.map_from_base_after = graph_.carried(*at).map_from_base;
+  latest_ = localized(chain_.latest());
   return correction;
 }
 
@@ -103,7 +103,7 @@ bool Localizer::set_initial_pose(const PoseInMap& pose, std::int64_t stamp_ns) {
   if (is_located_ && is_joined_ && !graph_.has_only_start()) {
     corrected.cut(at->pose.stamp_ns);
   } else {
-    corrected.place(said.map_from_base * graph_.carried(at->pose).map_from_base.inverse());
+    corrected.place(said.map_from_base * graph_.carried(*at).map_from_base.inverse());
   }
   corrected.set_initial_pose(said, *at);
   if (!corrected.solve()) return false;
@@ -113,7 +113,7 @@ bool Localizer::set_initial_pose(const PoseInMap& pose, std::int64_t stamp_ns) {
   asking_.reset();
   conflicting_.reset();
   found_at_way_m_ = at->way_m;
-  latest_ = localized(chain_.latest().pose);
+  latest_ = localized(chain_.latest());
   return true;
 }
 
@@ -126,7 +126,7 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
   const bool is_placed = is_joined_ || !graph_.is_known(sighting.landmark_id);
   double off_m = 0.0;
   if (is_placed) {
-    const auto here = graph_.carried(at.pose);
+    const auto here = graph_.carried(at);
     const vision::Vector6d error = vision::pose_error(here.map_from_base, measured);
     const vision::Matrix6d spread =
         here.covariance + vision::compose_covariance(landmark.map_from_base, landmark.covariance,

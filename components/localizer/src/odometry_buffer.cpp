@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <type_traits>
 
 #include "panvo/localizer/dead_reckoning.hpp"
 #include "panvo/vision/seconds.hpp"
@@ -27,6 +28,21 @@ vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b,
   return vision::step_covariance(a.odom_from_base, a.covariance, b.odom_from_base, b.covariance, min_variance);
 }
 
+vision::Matrix6d covariance_of_turns(const OdometrySample& a, const OdometrySample& b,
+                                     const Eigen::Matrix2d& turn_errors) {
+  const Eigen::Vector2d way = (b.pose.odom_from_base.translation() - a.pose.odom_from_base.translation()).head<2>();
+  const auto by_error = [&](double turn_rad, const Eigen::Vector2d& heading_over_way) {
+    vision::Vector6d moved;  // in the odometry's axes
+    moved << -heading_over_way.y(), heading_over_way.x(), 0.0, 0.0, 0.0, turn_rad;
+    return moved;
+  };
+  Eigen::Matrix<double, 6, 2> slope;
+  slope << by_error(b.turned_rad - a.turned_rad, b.turned_moment - a.turned_moment - a.turned_rad * way),
+      by_error(b.way_m - a.way_m, b.way_moment - a.way_moment - a.way_m * way);
+  return vision::rotate_covariance(a.pose.odom_from_base.linear().transpose(),
+                                   slope * turn_errors * slope.transpose());
+}
+
 double yaw_of(const Eigen::Matrix3d& rotation) { return std::atan2(rotation(1, 0), rotation(0, 0)); }
 
 Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad) {
@@ -48,8 +64,6 @@ bool OdometryBuffer::add(const OdometryPose& odometry, double turn_share, double
     entry.step.motion = turned_more(before.raw.odom_from_base.inverse() * odometry.odom_from_base, -turn_error_rad);
     entry.step.covariance = gained_covariance(before.raw, odometry, kMinStepVariance);
     entry.step.turn_share = turn_share;
-    entry.step.covariance.row(vision::kYaw) *= std::sqrt(turn_share);
-    entry.step.covariance.col(vision::kYaw) *= std::sqrt(turn_share);
     entry.step.covariance = at_least(entry.step.covariance, least);
     entry.marked = entry.step;
   }
@@ -76,7 +90,13 @@ std::optional<OdometrySample> OdometryBuffer::at(std::int64_t stamp_ns) const {
   here.pose.stamp_ns = stamp_ns;
   here.pose.odom_from_base = vision::interpolate(before.pose.odom_from_base, after.pose.odom_from_base, place->share);
   here.pose.covariance = (1.0 - place->share) * before.pose.covariance + place->share * after.pose.covariance;
-  here.way_m = (1.0 - place->share) * before.way_m + place->share * after.way_m;
+  const auto between = [&](const auto& from, const auto& to) {
+    return std::decay_t<decltype(from)>((1.0 - place->share) * from + place->share * to);
+  };
+  here.way_m = between(before.way_m, after.way_m);
+  here.turned_rad = between(before.turned_rad, after.turned_rad);
+  here.way_moment = between(before.way_moment, after.way_moment);
+  here.turned_moment = between(before.turned_moment, after.turned_moment);
   return here;
 }
 
@@ -90,8 +110,8 @@ std::optional<Turn> OdometryBuffer::turn(std::int64_t from_ns, std::int64_t to_n
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
     const Step& step = entries_[i].step;
-    turn.variance_rad2 += part * step.covariance(vision::kYaw, vision::kYaw);
-    turn.said_variance_rad2 += part * step.covariance(vision::kYaw, vision::kYaw) / step.turn_share;
+    turn.variance_rad2 += part * step.yaw_variance_rad2();
+    turn.said_variance_rad2 += part * step.yaw_variance_rad2() / step.turn_share;
   }
   return turn;
 }
@@ -143,12 +163,14 @@ void OdometryBuffer::apply_yaw_correction(std::int64_t from_ns, std::int64_t to_
   for (std::size_t i = first; i < entries_.size(); ++i) {
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
-    auto& entry = entries_[i];
-    const double weight = part * entry.step.covariance(vision::kYaw, vision::kYaw) / stretch->variance_rad2;
-    entry.step.motion = turned_more(entry.step.motion, weight * by_rad);
-    const double scale = std::sqrt(1.0 + part * (variance_factor - 1.0));
-    entry.step.covariance.row(vision::kYaw) *= scale;
-    entry.step.covariance.col(vision::kYaw) *= scale;
+    Step& step = entries_[i].step;
+    const double weight = part * step.yaw_variance_rad2() / stretch->variance_rad2;
+    step.motion = turned_more(step.motion, weight * by_rad);
+    const double share = step.is_measured ? 1.0 : step.turn_share;
+    const double scale = std::sqrt(share * (1.0 + part * (variance_factor - 1.0)));
+    step.covariance.row(vision::kYaw) *= scale;
+    step.covariance.col(vision::kYaw) *= scale;
+    step.is_measured = true;
   }
   compose_from(first);
 }
@@ -224,7 +246,13 @@ void OdometryBuffer::compose_from(std::size_t index) {
     entry.now.pose.odom_from_base.linear() = vision::nearest_rotation(entry.now.pose.odom_from_base.linear());
     entry.now.pose.covariance = vision::compose_covariance(before.pose.odom_from_base, before.pose.covariance,
                                                            entry.step.motion, entry.step.covariance);
-    entry.now.way_m = before.way_m + entry.step.motion.translation().norm();
+    const double length_m = entry.step.motion.translation().norm(), turn_rad = yaw_of(entry.step.motion.linear());
+    const Eigen::Vector2d way =
+        (entry.now.pose.odom_from_base.translation() - before.pose.odom_from_base.translation()).head<2>();
+    entry.now.way_m = before.way_m + length_m;
+    entry.now.turned_rad = before.turned_rad + turn_rad;
+    entry.now.way_moment = before.way_moment + (before.way_m + 0.5 * length_m) * way;
+    entry.now.turned_moment = before.turned_moment + (before.turned_rad + 0.5 * turn_rad) * way;
   }
 }
 

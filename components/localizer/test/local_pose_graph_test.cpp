@@ -45,7 +45,7 @@ TEST(LocalPoseGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
   }
   EXPECT_EQ(graph.size(), after_ten);
   // The last sighting removes the drift of 60 laps down to the error of the landmark and a sighting.
-  const auto here = graph.carried(in_lap(60).pose);
+  const auto here = graph.carried(in_lap(60));
   EXPECT_LT(here.map_from_base.translation().norm(), 0.3);
 }
 

@@ -74,7 +74,7 @@ class Straight {
 
   static Parameters parameters() {
     Parameters parameters;
-    parameters.scale_sigma = 0.0;
+    parameters.scale_sigma = parameters.turn_scale_sigma = parameters.turn_lean_sigma_deg_m = 0.0;
     parameters.clock_sigma_s = 0.0;
     return parameters;
   }

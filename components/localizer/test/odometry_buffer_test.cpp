@@ -150,6 +150,59 @@ TEST(OdometryBuffer, TakesBackWhatWasPutRightSinceTheMark) {
   EXPECT_TRUE(chain.latest().pose.covariance.isApprox(before.pose.covariance, 1e-12));
 }
 
+/// Winding, with errors of the turns: a share of each turn, and a lean per metre.
+OdometryBuffer winding(double scale, double lean_rad_m) {
+  OdometryBuffer chain(600.0);
+  OdometryPose pose;
+  pose.odom_from_base.linear() = vision::so3_exp({0.0, 0.0, 0.7});
+  chain.add(pose);
+  for (int i = 0; i < 500; ++i) {
+    const double turn_rad = 0.01 * std::sin(0.02 * i) + 0.003;
+    Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+    step.translation().x() = 0.2;
+    step.linear() = vision::so3_exp({0.0, 0.0, turn_rad});
+    pose.odom_from_base = pose.odom_from_base * turned_more(step, scale * turn_rad + lean_rad_m * 0.2);
+    pose.stamp_ns += kEach_ns;
+    chain.add(pose);
+  }
+  return chain;
+}
+
+TEST(OdometryBuffer, TellsWhatSystematicErrorsOfTheTurnsDoToPositionAndHeading) {
+  const std::int64_t from_ns = 100 * kEach_ns, to_ns = 470 * kEach_ns + kEach_ns / 3;
+  const auto exact = winding(0.0, 0.0);
+  const auto a = *exact.at(from_ns), b = *exact.at(to_ns);
+  const auto moved = [&](const OdometryBuffer& chain) {
+    return Eigen::Isometry3d(chain.at(from_ns)->pose.odom_from_base.inverse() * chain.at(to_ns)->pose.odom_from_base);
+  };
+  for (const auto& [scale, lean_rad_m] : {std::pair(1e-4, 0.0), std::pair(0.0, 1e-5), std::pair(1e-4, -1e-5)}) {
+    const Eigen::Vector2d errors(scale, lean_rad_m);
+    const auto off = vision::pose_error(moved(winding(scale, lean_rad_m)), moved(exact));
+    const vision::Matrix6d covariance = covariance_of_turns(a, b, errors * errors.transpose());
+    const vision::Matrix6d expected = off * off.transpose();
+    EXPECT_LT((covariance - expected).norm(), 0.02 * expected.norm()) << scale << " " << lean_rad_m;
+  }
+  EXPECT_EQ(covariance_of_turns(a, a, Eigen::Matrix2d::Identity()).norm(), 0.0);
+}
+
+TEST(OdometryBuffer, CountsThatShareOfAVarianceThatACompassMeasuredToo) {
+  auto chain = straight({});
+  OdometryPose pose;
+  for (int i = 1; i <= 4; ++i) {
+    pose.stamp_ns = i * kEach_ns;
+    pose.covariance(5, 5) = 1e-4 * i;
+    chain.add(pose, 0.25);
+  }
+  EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 4e-4, 1e-9) << "no compass yet";
+  EXPECT_NEAR(chain.turn(0, 2 * kEach_ns)->variance_rad2, 0.5e-4, 1e-9);
+  EXPECT_NEAR(chain.turn(0, 2 * kEach_ns)->said_variance_rad2, 2e-4, 1e-9);
+  chain.apply_yaw_correction(0, 2 * kEach_ns, 0.01, 0.5);
+  EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 2.25e-4, 1e-9) << "half of a quarter, and what was not measured";
+  chain.apply_yaw_correction(0, 2 * kEach_ns, 0.01, 1.0);
+  EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 2.25e-4, 1e-9) << "not twice";
+  EXPECT_NEAR(chain.turn(0, 4 * kEach_ns)->change_rad, 0.02, 1e-9);
+}
+
 TEST(OdometryBuffer, KnowsTheTwist) {
   OdometryBuffer chain(60.0);
   OdometryPose pose;

@@ -52,6 +52,8 @@ class LocalPoseGraph {
   LocalPoseGraph(double start_sigma_m, double start_sigma_rad, double scale_sigma, const GnssParameters& fixes);
 
   void start(const OdometrySample& at);
+  /// Covariance of the systematic errors of the odometry's turns: see covariance_of_turns().
+  void set_turn_errors(const Eigen::Matrix2d& covariance) { turn_errors_ = covariance; }
   bool has_started() const noexcept { return !nodes_.empty(); }
   /// Number of nodes: start, landmarks, passes.
   std::size_t size() const noexcept { return nodes_.size(); }
@@ -84,7 +86,7 @@ class LocalPoseGraph {
   /// Of the stamps of fixes behind the odometry's clock, s.
   const Estimate& fix_delay() const noexcept { return delay_; }
   /// enu_from_base of an odometry pose. Precondition: has_enu().
-  PoseInMap in_enu(const OdometryPose& odometry) const;
+  PoseInMap in_enu(const OdometrySample& at) const;
 
   /// Current estimate; nullopt for an unknown id.
   std::optional<KnownLandmark> landmark(std::uint32_t id) const;
@@ -92,7 +94,7 @@ class LocalPoseGraph {
   std::vector<KnownLandmark> landmarks() const;
 
   /// Pose in the map of an odometry pose, from the last node before it. Precondition: started.
-  PoseInMap carried(const OdometryPose& odometry) const;
+  PoseInMap carried(const OdometrySample& at) const;
 
   /// Error common to all poses, which the graph cannot contain: that of the earlier journeys' map, taken from its most
   /// recently seen landmark, or else of the scale and direction of this journey relative to its start.
@@ -147,10 +149,11 @@ class LocalPoseGraph {
   const Node& anchor(std::int64_t stamp_ns) const;
   std::vector<std::size_t> journey_order() const;
   Eigen::Isometry3d way_between(const OdometryPose& from, const OdometryPose& to) const;
-  vision::Matrix6d way_covariance(const OdometryPose& from, const OdometryPose& to) const;
+  vision::Matrix6d way_covariance(const OdometrySample& from, const OdometrySample& to) const;
 
   double start_sigma_m_, start_sigma_rad_, scale_sigma_;
   GnssParameters fix_parameters_;
+  Eigen::Matrix2d turn_errors_ = Eigen::Matrix2d::Zero();
   std::map<std::uint32_t, KnownLandmark> known_;
   std::vector<Node> nodes_;
   std::vector<std::int64_t> cuts_ns_;

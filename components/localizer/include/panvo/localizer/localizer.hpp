@@ -123,7 +123,7 @@ class Localizer {
   /// Whether there is a frame of the satellites.
   bool has_enu() const noexcept { return graph_.has_enu(); }
   /// Latest enu_from_base, and the map in that frame. Precondition: has_enu().
-  PoseInMap latest_in_enu() const { return graph_.in_enu(chain_.latest().pose); }
+  PoseInMap latest_in_enu() const { return graph_.in_enu(chain_.latest()); }
   PoseInMap map_from_enu() const { return graph_.map_from_enu(); }
   /// Odometry's length over the true one, by satellites; 1 without them.
   const Estimate& scale() const noexcept { return graph_.scale(); }
@@ -184,9 +184,9 @@ class Localizer {
   FixOutcome try_fixes(const GnssTrial::Sample& sample, double least_m);
   bool is_expected(const GnssFix& fix, const OdometrySample& at) const;
   std::int64_t in_odometry_time(std::int64_t panorama_stamp_ns) const;
-  LocalizedPose localized(const OdometryPose& odometry) const;
+  LocalizedPose localized(const OdometrySample& at) const;
   void set_state(LocalizedPose& pose) const;
-  PoseInMap expected(const OdometryPose& odometry) const;
+  PoseInMap expected(const OdometrySample& at) const;
   vision::Matrix6d common_covariance(const Eigen::Vector3d& position) const;
   Verdict judge(const LandmarkSighting& sighting, const KnownLandmark& landmark, const OdometrySample& at) const;
   Verdict judge_far(Verdict verdict, const PendingRelocalization& now, bool is_confirmed) const;

@@ -104,8 +104,9 @@ struct Parameters {
           "measured, so that moving objects at the start are not mistaken for it",
           0.0, 180.0);
     field(&P::steady_turn_share, "steady_turn_share", "1",
-          "fraction of the variance of odometry's turns that is used if all of its points agree: the variance "
-          "covers the drift over long paths, but next to the compass only some seconds count",
+          "fraction of the variance of odometry's turns that is used where the compass measures them, too, and all of "
+          "odometry's points agree: the variance covers the drift over long paths, but next to the compass only some "
+          "seconds count",
           0.001, 1.0);
     field(&P::doubtful_outlier_share, "doubtful_outlier_share", "1",
           "fraction of outliers from which the full variance is used: where so many points are "

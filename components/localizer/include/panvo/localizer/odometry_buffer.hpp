@@ -19,17 +19,20 @@ struct OdometryPose {
   double outlier_share = 1.0;  ///< fraction of outlier points, [0, 1]; 1 if unknown
 };
 
-/// Odometry pose with the path length up to it.
+/// Odometry pose with what was travelled up to it.
 struct OdometrySample {
   OdometryPose pose;
   double way_m = 0.0;
+  double turned_rad = 0.0;                                     ///< left positive, not wrapped
+  Eigen::Vector2d way_moment = Eigen::Vector2d::Zero();        ///< integral of way_m over the path, in the odometry's frame
+  Eigen::Vector2d turned_moment = Eigen::Vector2d::Zero();     ///< the same of turned_rad
 };
 
 /// Rotation of the vehicle, left positive.
 struct Turn {
   double change_rad = 0.0;
-  double variance_rad2 = 0.0;
-  double said_variance_rad2 = 0.0;  ///< before the reduction by turn_share
+  double variance_rad2 = 0.0;       ///< beside a compass: reduced by turn_share
+  double said_variance_rad2 = 0.0;  ///< as of the odometry
 };
 
 /// Buffer of the recent odometry steps. Late information, such as another measurement of a turn, is applied where it
@@ -39,7 +42,7 @@ class OdometryBuffer {
   explicit OdometryBuffer(double history_s) : history_s_(history_s) {}
 
   /// Appends a pose; false, without effect, if its stamp is not later than the last or it is not finite. `turn_share`:
-  /// fraction of the gained yaw variance to keep; `turn_error_rad`: what odometry turned too much since the last pose;
+  /// fraction of the gained yaw variance that counts where a compass measures the turn, too; `turn_error_rad`: what odometry turned too much since the last pose;
   /// `least`: lower bound of the step's covariance, in the vehicle's axes.
   bool add(const OdometryPose& odometry, double turn_share = 1.0, double turn_error_rad = 0.0,
            const vision::Matrix6d& least = vision::Matrix6d::Zero());
@@ -63,7 +66,8 @@ class OdometryBuffer {
   /// Increases the uncertainty of a stretch: multiplies the yaw variance by `factor`, and the other variances by
   /// `factor`, limited to `max_total` in total over repeated calls.
   void inflate_covariance(std::int64_t from_ns, std::int64_t to_ns, double factor, double max_total);
-  /// Rotates a stretch by an additional angle, distributed over the steps by variance, and multiplies the yaw variance.
+  /// Rotates a stretch by an additional angle that a compass measured, distributed over the steps by variance, and
+  /// multiplies the yaw variance.
   void apply_yaw_correction(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
 
   /// Adds variance to a stretch, distributed over the steps by time: to both axes of the plane, and to the yaw.
@@ -82,7 +86,12 @@ class OdometryBuffer {
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  // previous pose from this one
     vision::Matrix6d covariance = vision::Matrix6d::Zero();    // in the axes of the previous pose
     double widened = 1.0;     // factor on the variances other than yaw, relative to the odometry's
-    double turn_share = 1.0;  // kept fraction of the yaw variance
+    double turn_share = 1.0;  // fraction of the yaw variance that counts beside a compass
+    bool is_measured = false;  // by a compass: the yaw variance is that fraction
+
+    double yaw_variance_rad2() const {
+      return (is_measured ? 1.0 : turn_share) * covariance(vision::kYaw, vision::kYaw);
+    }
   };
   struct Entry {
     OdometryPose raw;  // as received
@@ -111,6 +120,11 @@ class OdometryBuffer {
 /// Covariance of a_from_b gained by odometry between a and b, in the axes of a; at least `min_variance` in every
 /// direction.
 vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double min_variance);
+
+/// Covariance of a_from_b, as above, by systematic errors of the turns: a share of each turn, and a lean per metre.
+/// `turn_errors`: covariance of both.
+vision::Matrix6d covariance_of_turns(const OdometrySample& a, const OdometrySample& b,
+                                     const Eigen::Matrix2d& turn_errors);
 
 /// The step with an additional turn to the left, half of it before and half after the translation.
 Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad);
