@@ -184,8 +184,7 @@ PoseInMap LocalPoseGraph::in_enu(const OdometrySample& at) const {
   const Eigen::Isometry3d enu_from_node = enu_from_map * from.map_from_base;
   const Eigen::Isometry3d way = way_between(from.at.pose, at.pose);
   const bool is_back = at.pose.stamp_ns < from.at.pose.stamp_ns;
-  const vision::Matrix6d gained =
-      is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at, at);
+  const vision::Matrix6d gained = is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at, at);
   return {enu_from_node * way,
           vision::compose_covariance(enu_from_node, vision::rotate_covariance(enu_from_map.linear(), in_map_axes), way,
                                      gained)};

@@ -39,8 +39,7 @@ vision::Matrix6d covariance_of_turns(const OdometrySample& a, const OdometrySamp
   Eigen::Matrix<double, 6, 2> slope;
   slope << by_error(b.turned_rad - a.turned_rad, b.turned_moment - a.turned_moment - a.turned_rad * way),
       by_error(b.way_m - a.way_m, b.way_moment - a.way_moment - a.way_m * way);
-  return vision::rotate_covariance(a.pose.odom_from_base.linear().transpose(),
-                                   slope * turn_errors * slope.transpose());
+  return vision::rotate_covariance(a.pose.odom_from_base.linear().transpose(), slope * turn_errors * slope.transpose());
 }
 
 double yaw_of(const Eigen::Matrix3d& rotation) { return std::atan2(rotation(1, 0), rotation(0, 0)); }

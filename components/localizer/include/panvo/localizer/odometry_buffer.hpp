@@ -23,9 +23,9 @@ struct OdometryPose {
 struct OdometrySample {
   OdometryPose pose;
   double way_m = 0.0;
-  double turned_rad = 0.0;                                     ///< left positive, not wrapped
-  Eigen::Vector2d way_moment = Eigen::Vector2d::Zero();        ///< integral of way_m over the path, in the odometry's frame
-  Eigen::Vector2d turned_moment = Eigen::Vector2d::Zero();     ///< the same of turned_rad
+  double turned_rad = 0.0;                               ///< left positive, not wrapped
+  Eigen::Vector2d way_moment = Eigen::Vector2d::Zero();  ///< integral of way_m over the path, in the odometry's frame
+  Eigen::Vector2d turned_moment = Eigen::Vector2d::Zero();  ///< the same of turned_rad
 };
 
 /// Rotation of the vehicle, left positive.
@@ -85,8 +85,8 @@ class OdometryBuffer {
   struct Step {
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  // previous pose from this one
     vision::Matrix6d covariance = vision::Matrix6d::Zero();    // in the axes of the previous pose
-    double widened = 1.0;     // factor on the variances other than yaw, relative to the odometry's
-    double turn_share = 1.0;  // fraction of the yaw variance that counts beside a compass
+    double widened = 1.0;      // factor on the variances other than yaw, relative to the odometry's
+    double turn_share = 1.0;   // fraction of the yaw variance that counts beside a compass
     bool is_measured = false;  // by a compass: the yaw variance is that fraction
 
     double yaw_variance_rad2() const {
