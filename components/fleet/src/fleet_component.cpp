@@ -20,6 +20,7 @@
 #include "panvo/interfaces/fleet_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/landmarks/panorama_level.hpp"
 #include "panvo/position_corrector/spilled_landmarks.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/runtime/errors.hpp"
@@ -159,7 +160,11 @@ class FleetComponent final : public runtime::Component {
         transforms_
             .lookup(parameters_.base_frame, message->header().frame_id(), "using the extrinsics of the last landmark")
             .value_or(base_from_panorama_);
-    if (const auto fault = fleet_.add_panorama(conversions::stamp_ns(*message), *panorama, base_from_panorama)) {
+    if (base_from_panorama.matrix() != level_.base_from_panorama().matrix()) {
+      level_ = landmarks::PanoramaLevel(base_from_panorama);
+    }
+    if (const auto fault =
+            fleet_.add_panorama(conversions::stamp_ns(*message), level_.level(*panorama), level_.base_from_level())) {
       context_.log().warn_throttled(*fault, "{} {}", context_.resolved_name(topics::kPanorama), *fault);
     }
     send();
@@ -291,6 +296,7 @@ class FleetComponent final : public runtime::Component {
   conversions::TransformListener transforms_;
 
   Eigen::Isometry3d base_from_panorama_ = Eigen::Isometry3d::Identity();
+  landmarks::PanoramaLevel level_;
   std::shared_ptr<const sensor_msgs::msg::Image> waiting_;
   bool is_located_ = true;
   ByteCount sent_, received_;

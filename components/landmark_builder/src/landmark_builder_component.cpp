@@ -17,6 +17,7 @@
 #include "panvo/landmarks/description_settings.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/panorama_check.hpp"
+#include "panvo/landmarks/panorama_level.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/vision/panorama_watch.hpp"
 
@@ -127,7 +128,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
 
   void on_vehicle_mask(const sensor_msgs::msg::Image& message) {
     if (const auto seen = conversions::grey(message)) seen_ = seen->clone();
-    if (builder_) builder_->set_seen(seen_);
+    if (builder_) builder_->set_seen(level_.level_mask(seen_));
   }
 
   void on_match(const panvo_msgs::msg::LandmarkMatch& message) {
@@ -200,7 +201,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
     }
     last_stamp_ns_ = stamp_ns;
     for (const auto& landmark :
-         builder_->step({stamp_ns, panorama, pose->odom_from_base, pose->covariance, map_from_odom_})) {
+         builder_->step({stamp_ns, level_.level(panorama), pose->odom_from_base, pose->covariance, map_from_odom_})) {
       const auto points = std::count_if(landmark.keypoints.begin(), landmark.keypoints.end(),
                                         [](const auto& keypoint) { return keypoint.has_point; });
       context_.log().info("landmark {}: {}, {} keypoints, {} of them triangulated", landmark.id,
@@ -229,15 +230,16 @@ class LandmarkBuilderComponent final : public runtime::Component {
     const auto base_from_panorama =
         transforms_.lookup(parameters_.base_frame, frame, "publish the extrinsics of the panoramic camera");
     if (!base_from_panorama) return false;
+    level_ = landmarks::PanoramaLevel(*base_from_panorama);
     try {
-      builder_.emplace(parameters_, static_cast<std::uint64_t>(parameters_.description_seed), *base_from_panorama, size,
-                       &timer_);
+      builder_.emplace(parameters_, static_cast<std::uint64_t>(parameters_.description_seed), level_.base_from_level(),
+                       size, &timer_);
     } catch (const std::invalid_argument& error) {
       context_.log().warn_throttled("no builder", "no landmarks: {}", error.what());
       return false;
     }
     size_ = size;
-    builder_->set_seen(seen_);
+    builder_->set_seen(level_.level_mask(seen_));
     for (const auto& [id, position] : known_) tell_builder(id);
     return true;
   }
@@ -251,6 +253,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
   conversions::TransformListener transforms_;
   vision::PanoramaWatch watch_;
   std::optional<LandmarkBuilder> builder_;
+  landmarks::PanoramaLevel level_;  // of the builder's panoramas
   cv::Size size_;
   cv::Mat seen_;                                    // all but the vehicle; empty: unknown
   std::map<std::uint32_t, Eigen::Vector2d> known_;  // all published landmarks, of any node

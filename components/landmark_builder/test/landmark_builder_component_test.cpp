@@ -25,10 +25,9 @@ class LandmarkBuilderComponent : public ::testing::Test {
     harness_.load("panvo_landmark_builder", "LandmarkBuilderComponent", parameters);
   }
 
-  void publish_mounting() {
+  void publish_mounting(const Eigen::Isometry3d& base_from_panorama = PaintedTown::base_from_panorama()) {
     tf2_msgs::msg::TFMessage message;
-    message.transforms(
-        {conversions::to_static_transform(1, "base_link", "panorama_optical", PaintedTown::base_from_panorama())});
+    message.transforms({conversions::to_static_transform(1, "base_link", "panorama_optical", base_from_panorama)});
     harness_.publish(topics::kTfStatic, message);
   }
 
@@ -85,6 +84,19 @@ TEST_F(LandmarkBuilderComponent, PublishesALandmarkOfThePanoramaNearestToTheCros
   const double x = landmark.pose().pose().position().x();
   EXPECT_LT(std::abs(x), 4.0);
   EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(landmark)) * 1e-9, 100.0 + 0.2 * x, 1e-3);
+}
+
+TEST_F(LandmarkBuilderComponent, LevelsThePanoramasOfACameraThatIsMountedAtATilt) {
+  load({{"rule.first_m", "0"}});
+  Eigen::Isometry3d tilted = PaintedTown::base_from_panorama();
+  tilted.linear() = vision::so3_exp({0.1, 0.2, 0.0}) * tilted.linear();
+  publish_mounting(tilted);
+  drive();
+  ASSERT_FALSE(landmarks_.empty());
+  const auto camera = conversions::to_isometry(landmarks_[0]->panorama_pose());
+  ASSERT_TRUE(camera);
+  EXPECT_NEAR(camera->linear()(2, 1), -1.0, 1e-9) << "its y axis points down";
+  EXPECT_TRUE(camera->translation().isApprox(tilted.translation()));
 }
 
 TEST_F(LandmarkBuilderComponent, TakesNoKeypointsFromTheVehicle) {

@@ -38,16 +38,18 @@ float column_of(const Eigen::Vector3d& direction) {
   return static_cast<float>(turns - std::floor(turns));
 }
 
-PackedMatch pack(const PointMatch& match, const std::optional<PanoramaPose>& pose, std::uint32_t landmark) {
+PackedMatch pack(const PointMatch& match, const std::optional<PanoramaPose>& pose, std::uint32_t landmark,
+                 const Eigen::Matrix3d& panorama_from_level) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const Eigen::Vector3d known = pose ? Eigen::Vector3d(pose->landmark_from_panorama.inverse() * match.point)
                                      : Eigen::Vector3d::Constant(kUnknown);
-  const Eigen::Vector3f at = known.cast<float>();
+  const Eigen::Vector3f at = (panorama_from_level * known).cast<float>();
+  const Eigen::Vector3d bearing = panorama_from_level * match.bearing;
   return {at.x(),
           at.y(),
           at.z(),
-          column_of(match.bearing),
-          row_of(match.bearing),
+          column_of(bearing),
+          row_of(bearing),
           column_of(match.point),
           row_of(match.point),
           landmark,
@@ -57,12 +59,13 @@ PackedMatch pack(const PointMatch& match, const std::optional<PanoramaPose>& pos
 
 }  // namespace
 
-sensor_msgs::msg::PointCloud2 to_point_cloud(const LandmarkMatch& match, const std::string& panorama_frame) {
+sensor_msgs::msg::PointCloud2 to_point_cloud(const LandmarkMatch& match, const std::string& panorama_frame,
+                                             const Eigen::Matrix3d& panorama_from_level) {
   const auto& pose = match.pose ? match.pose : match.weak_pose;
   namespace types = sensor_msgs::msg::PointField_Constants;
   std::vector<PackedMatch> packed;
   packed.reserve(match.points.size());
-  for (const auto& point : match.points) packed.push_back(pack(point, pose, match.landmark_id));
+  for (const auto& point : match.points) packed.push_back(pack(point, pose, match.landmark_id, panorama_from_level));
   return conversions::to_point_cloud(match.stamp_ns, panorama_frame,
                                      {{"x", offsetof(PackedMatch, x), types::FLOAT32},
                                       {"y", offsetof(PackedMatch, y), types::FLOAT32},

@@ -17,6 +17,7 @@
 #include "panvo/landmarks/early_poses.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/panorama_check.hpp"
+#include "panvo/landmarks/panorama_level.hpp"
 #include "panvo/position_corrector/correction_messages.hpp"
 #include "panvo/position_corrector/landmark_matcher.hpp"
 #include "panvo/position_corrector/match_messages.hpp"
@@ -134,7 +135,10 @@ class PositionCorrectorComponent final : public runtime::Component {
   }
 
   void on_vehicle_mask(const sensor_msgs::msg::Image& message) {
-    if (const auto seen = conversions::grey(message)) matcher_.set_seen(seen->clone());
+    const auto seen = conversions::grey(message);
+    if (!seen) return;
+    seen_ = seen->clone();
+    matcher_.set_seen(level_.level_mask(seen_));
   }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
@@ -168,9 +172,10 @@ class PositionCorrectorComponent final : public runtime::Component {
       context_.log().warn_throttled("no odometry", "nothing on {} yet: the whole library is searched",
                                     context_.resolved_name(topics::kOdometryBinocular));
     }
+    if (!library_.empty()) set_extrinsics(message.header().frame_id());
     PanoramaFrame frame;
     frame.stamp_ns = stamp_ns;
-    frame.panorama = *panorama;
+    frame.panorama = level_.level(*panorama);
     if (here) frame.travelled_m = here->travelled_m;
     if (here && parameters_.use_position) frame.prior = here->prior;
     const auto fault = watch_.add(*panorama);
@@ -178,7 +183,7 @@ class PositionCorrectorComponent final : public runtime::Component {
     const auto match = is_unlike_before ? unusable(stamp_ns, *fault) : matcher_.match(frame, library_);
     match_.publish(to_message(match, message.header().frame_id()));
     if (!match.points.empty() && context_.has_reader(kLandmarkPoints)) {
-      points_.publish(to_point_cloud(match, message.header().frame_id()));
+      points_.publish(to_point_cloud(match, message.header().frame_id(), level_.panorama_from_level()));
     }
     if (match.state == MatchState::kMatched) {
       context_.log().info("landmark {} passed, heading {:+.1f} deg relative to the landmark", match.landmark_id,
@@ -186,7 +191,7 @@ class PositionCorrectorComponent final : public runtime::Component {
     } else if (match.state == MatchState::kUnusable) {
       context_.log().warn_throttled(match.reason, "{} {}", context_.resolved_name(topics::kPanorama), match.reason);
     }
-    if (const auto correction = correction_of(match, message.header().frame_id())) {
+    if (const auto correction = correction_of(match)) {
       correction_.publish(to_message(*correction, message.header().frame_id()));
     }
   }
@@ -199,10 +204,11 @@ class PositionCorrectorComponent final : public runtime::Component {
     return match;
   }
 
-  std::optional<PositionCorrection> correction_of(const LandmarkMatch& match, const std::string& panorama_frame) {
+  std::optional<PositionCorrection> correction_of(const LandmarkMatch& match) {
     const auto* landmark = library_.find(match.landmark_id);
     if (landmark == nullptr) return std::nullopt;
-    const auto mountings = mountings_of(*landmark, panorama_frame);
+    const Mountings mountings{landmark->base_from_panorama,
+                              has_extrinsics_ ? level_.base_from_level() : landmark->base_from_panorama};
     const bool is_paper = parameters_.correction.method == "paper";
     std::optional<PositionCorrection> correction;
     if (!is_paper || match.state == MatchState::kRejected) {
@@ -220,10 +226,14 @@ class PositionCorrectorComponent final : public runtime::Component {
     return correction;
   }
 
-  Mountings mountings_of(const landmarks::PanoramicLandmark& landmark, const std::string& panorama_frame) {
-    const auto now =
+  void set_extrinsics(const std::string& panorama_frame) {
+    const auto base_from_panorama =
         transforms_.lookup(parameters_.base_frame, panorama_frame, "using the extrinsics stored with the landmark");
-    return {landmark.base_from_panorama, now.value_or(landmark.base_from_panorama)};
+    if (!base_from_panorama) return;
+    if (has_extrinsics_ && base_from_panorama->matrix() == level_.base_from_panorama().matrix()) return;
+    has_extrinsics_ = true;
+    level_ = landmarks::PanoramaLevel(*base_from_panorama);
+    matcher_.set_seen(level_.level_mask(seen_));
   }
 
   runtime::Context& context_;
@@ -240,6 +250,9 @@ class PositionCorrectorComponent final : public runtime::Component {
   runtime::Output<sensor_msgs::msg::PointCloud2> points_;
 
   conversions::TransformListener transforms_;
+  bool has_extrinsics_ = false;     // level_ has those of /tf_static
+  landmarks::PanoramaLevel level_;  // of the matcher's panoramas
+  cv::Mat seen_;                    // all but the vehicle; empty: unknown
   landmarks::EarlyPoses early_poses_;
   OdometryTrail trail_;
 };

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "corrector_on_topics.hpp"
+#include "panvo/landmarks/panorama_level.hpp"
+#include "panvo/vision/equirectangular.hpp"
 
 namespace panvo::position_corrector {
 namespace {
@@ -28,6 +31,39 @@ TEST_F(CorrectorOnTopics, TellsOfEachPanoramaWhatItShows) {
   EXPECT_NEAR(matches[1]->heading_rad(), M_PI / 2.0, 0.01);
   EXPECT_EQ(conversions::to_ns(matches[1]->header().stamp()), 2 * kPeriod_ns);
   EXPECT_EQ(matches[1]->header().frame_id(), "panorama");
+}
+
+TEST_F(CorrectorOnTopics, RecognisesAPlaceAtAnotherHeadingWithACameraThatIsMountedAtATilt) {
+  publish_landmark(2, 2);
+  Eigen::Isometry3d tilted = mounted(2.0);
+  tilted.linear() = vision::so3_exp({0.09, 0.26, 0.0}) * tilted.linear();  // 5 degrees to the right, 15 down
+  tf2_msgs::msg::TFMessage message;
+  message.transforms().push_back(conversions::to_static_transform(0, "base_link", "panorama", tilted));
+  harness.publish(topics::kTfStatic, message);
+
+  const cv::Mat upright = turned(place(2), 270);
+  const vision::Equirectangular sphere{upright.cols, upright.rows};
+  const Eigen::Matrix3d level_from_tilted = landmarks::PanoramaLevel(tilted).panorama_from_level().transpose();
+  cv::Mat_<cv::Point2f> where(upright.size());
+  for (int row = 0; row < where.rows; ++row) {
+    for (int column = 0; column < where.cols; ++column) {
+      const auto pixel = sphere.project(level_from_tilted * sphere.unproject({column, row}));
+      where(row, column) = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
+    }
+  }
+  cv::Mat panorama;
+  cv::remap(upright, panorama, where, {}, cv::INTER_LINEAR, cv::BORDER_WRAP);
+
+  publish_odometry(200.0, 1.0);
+  publish_panorama(panorama);
+  ASSERT_EQ(matches.size(), 1U);
+  ASSERT_EQ(matches[0]->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED) << matches[0]->reason();
+  EXPECT_NEAR(matches[0]->heading_rad(), M_PI / 2.0, 0.02);
+  ASSERT_EQ(corrections.size(), 1U);
+  const auto seen = conversions::to_isometry(corrections[0]->landmark_from_base().pose());
+  ASSERT_TRUE(seen);
+  const Eigen::Matrix3d expected = vision::so3_exp({0.0, 0.0, M_PI / 2.0});
+  EXPECT_LT(Eigen::AngleAxisd(seen->linear().transpose() * expected).angle(), 0.02) << "the vehicle is level";
 }
 
 TEST_F(CorrectorOnTopics, SearchesEverythingWithoutOdometryAndSaysSo) {
