@@ -42,8 +42,8 @@ class OdometryBuffer {
   explicit OdometryBuffer(double history_s) : history_s_(history_s) {}
 
   /// Appends a pose; false, without effect, if its stamp is not later than the last or it is not finite. `turn_share`:
-  /// fraction of the gained yaw variance that counts where a compass measures the turn, too; `turn_error_rad`: what odometry turned too much since the last pose;
-  /// `least`: lower bound of the step's covariance, in the vehicle's axes.
+  /// fraction of the gained yaw variance that counts where a compass measures the turn, too; `turn_error_rad`: what
+  /// odometry turned too much since the last pose; `least`: lower bound of the step's covariance, in the vehicle's axes.
   bool add(const OdometryPose& odometry, double turn_share = 1.0, double turn_error_rad = 0.0,
            const vision::Matrix6d& least = vision::Matrix6d::Zero());
 
