@@ -28,8 +28,9 @@ constexpr double kAlike_rad = 0.005;             // error common to the directio
 constexpr double kCameraApart_m = 1.0;           // from base_link, which in a bend moves in another direction
 constexpr double kMinWay_m = 0.1;                // for a defined direction
 constexpr double kClearlyMoved_m = 0.5;          // far enough to be visible in objects beside the path
-constexpr double kNoDirection_rad2 = 0.5 * 0.5;  // unknown: nothing moves, or several motions explain the panoramas
+constexpr double kNoDirection_rad2 = 0.1 * 0.1;  // unknown: nothing moves, or several motions explain the panoramas
 constexpr double kFarthest_m = 1000.0;           // what moves less beside the path than objects there does not move
+constexpr double kStandingReach = 3.0;           // standard deviations of the turn, which looks like motion there
 constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // objects beside the path are farther away, in the median
 constexpr double kSameAngle_rad = 0.1;
 constexpr double kLasting_m = 30.0;
@@ -210,7 +211,8 @@ auto CrossCheck::judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& 
   }
   if (length_m < kMinWay_m) return verdict;
   if (azimuth.motion_azimuth_variance_rad2 > kNoDirection_rad2) {
-    const bool do_panoramas_stand = std::abs(azimuth.side_parallax_rad) < length_m / kFarthest_m;
+    const double at_most_rad = std::abs(azimuth.side_parallax_rad) + kStandingReach * std::sqrt(azimuth.variance_rad2);
+    const bool do_panoramas_stand = at_most_rad < length_m / kFarthest_m;
     if (do_panoramas_stand && length_m > kClearlyMoved_m) verdict.off_m = length_m;
     return verdict;
   }

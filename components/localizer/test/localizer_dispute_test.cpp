@@ -41,10 +41,9 @@ class Straight {
     odometry_.is_reliable = is_reliable;
     localizer.add(odometry_);
     if (frame_ % kFramesAPanorama != 0 || !has_panoramas) return;
-    const bool is_direction_known = speed_m_s != 0.0 && !is_in_field;
-    last_use = localizer.add(AzimuthMeasurement{odometry_.stamp_ns - kFramesAPanorama * kFrame_ns, odometry_.stamp_ns,
-                                                compass_rad, 1e-8, camera_turned_rad, is_direction_known ? 1e-5 : 1.0,
-                                                speed_m_s * 0.2 / (is_in_field ? 200.0 : 20.0)});
+    last_use = localizer.add(AzimuthMeasurement{
+        odometry_.stamp_ns - kFramesAPanorama * kFrame_ns, odometry_.stamp_ns, compass_rad, turn_variance_rad2,
+        camera_turned_rad, speed_m_s != 0.0 ? direction_variance_rad2 : 1.0, speed_m_s * 0.2 / farness_m});
     compass_rad = 0.0;
   }
 
@@ -84,7 +83,8 @@ class Straight {
   std::optional<double> mover_m_s;
   double rig_turned_rad = 0.0, camera_turned_rad = 0.0, compass_rad = 0.0;
   bool has_panoramas = true, is_reliable = true;
-  bool is_in_field = false;  // everything is 200 m away, and the panoramas do not tell the direction
+  double turn_variance_rad2 = 1e-8, direction_variance_rad2 = 1e-5;  // of the panoramas
+  double farness_m = 20.0;                                           // of what is beside the path
   AzimuthUse last_use = AzimuthUse::kNotUsed;
 
  private:
@@ -102,11 +102,24 @@ TEST(LocalizerDispute, AgreesWithAVehicleThatDrivesAsBothSay) {
 }
 
 TEST(LocalizerDispute, TakesNoUnknownDirectionForAVehicleThatStands) {
-  Straight drive;
-  drive.is_in_field = true;
-  drive.drive(10.0);
-  EXPECT_EQ(drive.localizer.latest().state, State::kTracking);
-  EXPECT_LT(drive.sigma_m(), 0.1);
+  for (const double farness_m : {200.0, 5000.0}) {  // fields, and the sea or clouds
+    Straight vehicle;
+    vehicle.farness_m = farness_m;
+    vehicle.direction_variance_rad2 = 1.0;
+    vehicle.turn_variance_rad2 = 0.003 * 0.003;
+    vehicle.drive(10.0);
+    EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking) << farness_m;
+    EXPECT_LT(vehicle.sigma_m(), 0.2) << farness_m;
+  }
+}
+
+TEST(LocalizerDispute, DoesNotBelieveADirectionThatThePanoramasHardlyKnow) {
+  Straight vehicle;
+  vehicle.direction_variance_rad2 = 0.2 * 0.2;
+  vehicle.camera_turned_rad = 2.0;  // another motion explains the panoramas better
+  vehicle.drive(10.0);
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
+  EXPECT_LT(vehicle.sigma_m(), 0.2);
 }
 
 TEST(LocalizerDispute, CoversWhatAMoverBeforeBothEyesTakesItAlong) {

@@ -27,6 +27,7 @@ constexpr int kMaxFailures = 3;                       // consecutive failures be
 constexpr double kSideSector_rad = 0.6;               // on each side of the lateral direction
 constexpr double kAhead = 0.05;        // sine: closer to the direction of travel, the magnification is undefined
 constexpr double kMaxMagnified = 1.6;  // larger changes are clamped
+constexpr double kTurnCaution = 4.0;   // of the turn's variance: in open land it errs by up to twice what it says
 constexpr int kPatch_px = 10;          // half the width of what a point is recognised by
 constexpr double kZenithShare = 0.2;   // of the rows: overhead region
 constexpr double kSkyQuantile = 0.2;   // of the overhead grey levels
@@ -171,7 +172,7 @@ class AllRound final : public PanoramicCompass::Method {
     change.variance_rad2 = fit->yaw_variance_rad2 + systematic_rad * systematic_rad + by_parallax_rad * by_parallax_rad;
     change.side_parallax_rad = side_parallax(pairs, *fit);
     change.motion_azimuth_rad = std::atan2(-fit->drift.y(), -fit->drift.x());
-    change.motion_azimuth_variance_rad2 = motion_variance(*fit, systematic_rad);
+    change.motion_azimuth_variance_rad2 = motion_variance(*fit, change.variance_rad2);
     const double sigma_deg = std::sqrt(change.variance_rad2) * 180.0 / std::numbers::pi;
     if (share < demand.min_share) {
       reason << "the points contradict each other: " << fit->agreeing << " of " << pairs.size() << " agree";
@@ -246,11 +247,12 @@ class AllRound final : public PanoramicCompass::Method {
     return base_from_panorama_ * panorama.unproject({in_band.x(), in_band.y() + cutter_.first_row});
   }
 
-  /// The effect of systematic errors on the direction of motion is inversely proportional to the parallax.
-  static double motion_variance(const TurnFit& fit, double systematic_rad) {
+  /// What is wrong with the turn looks like motion aside: its effect on the direction is inversely proportional to the
+  /// parallax.
+  static double motion_variance(const TurnFit& fit, double turn_variance_rad2) {
     const double parallax = std::max(fit.typical_parallax, fit.near_parallax);
-    const double by_systematic = systematic_rad / std::max(parallax, systematic_rad);
-    return fit.drift_azimuth_variance_rad2 + by_systematic * by_systematic;
+    const double by_turn_rad2 = kTurnCaution * turn_variance_rad2;
+    return fit.drift_azimuth_variance_rad2 + by_turn_rad2 / std::max(parallax * parallax, by_turn_rad2);
   }
 
   /// Parallax of the points beside the vehicle, after removing the turn [Lu2015 6].

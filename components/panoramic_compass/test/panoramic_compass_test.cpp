@@ -172,6 +172,18 @@ TEST(AllRound, TellsInWhichDirectionTheVehicleMoved) {
   EXPECT_GT(stands.motion_azimuth_variance_rad2, 0.5) << "no motion";
 }
 
+// An error of the turn moves the points like a motion aside of as many radians.
+TEST(AllRound, KnowsTheDirectionNoBetterThanTheTurnLetsIt) {
+  const cv::Mat street = paint_panorama();
+  for (const double parallax : {0.02, 0.05, 0.1}) {
+    const AzimuthChange change = change_all_round(street, driven(street, parallax, 0.05));
+    ASSERT_TRUE(change.valid) << change.reason;
+    const double aside_rad = std::sqrt(change.motion_azimuth_variance_rad2) * parallax;
+    EXPECT_GE(aside_rad, std::sqrt(change.variance_rad2)) << "at a parallax of " << parallax;
+    EXPECT_LE(aside_rad, 4.0 * std::sqrt(change.variance_rad2)) << "at a parallax of " << parallax;
+  }
+}
+
 TEST(PointsAllRound, AreNotMisledByAMoverThatCoversAThirdOfTheView) {
   const cv::Mat street = paint_panorama(), bus = paint_panorama(5);
   cv::Mat then = street.clone(), now = turned_left(street, 10.0);
