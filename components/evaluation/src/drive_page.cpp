@@ -6,6 +6,7 @@
 #include "drive_pictures.hpp"
 #include "drive_rows.hpp"
 #include "panvo/evaluation/input_error.hpp"
+#include "panvo/evaluation/journey_page.hpp"
 #include "text_file.hpp"
 
 namespace panvo::evaluation {
@@ -52,6 +53,7 @@ std::string drive_page(const JourneyReport& report, const fs::path& page_folder)
   auto drive = drive_rows(report.run.frames);
   drive["version"] = 1;
   drive["title"] = report.title;
+  drive["report"] = journey_page(report);
   drive["pictures"] = drive_pictures(report.run.frames);
   std::string data = drive.dump();
   replace_all(data, "<", "\\u003c");

@@ -66,8 +66,11 @@ TEST_F(DrivePage, IsOneFileWithScriptStyleAndDrive) {
   const auto text = page("</script><b>");
   EXPECT_THAT(text, HasSubstr("<style>p { color: red }</style><body><p>map</p>"));
   EXPECT_THAT(text, HasSubstr("<script>say('<\\/script>');</script></body>"));
-  for (const char* reference : {"src=", "href=", "<link"}) EXPECT_THAT(text, Not(HasSubstr(reference)));
-  EXPECT_EQ(drive_in(text)["title"], "</script><b>");
+  const auto drive = drive_in(text);
+  EXPECT_EQ(drive["title"], "</script><b>");
+  for (const char* reference : {"src=", "href=", "<link"}) {
+    EXPECT_THAT(text.substr(0, text.find("recorded-drive")), Not(HasSubstr(reference)));
+  }
 }
 
 TEST_F(DrivePage, HasThePosesInTheMapWithTheirTimes) {
@@ -98,6 +101,13 @@ TEST_F(DrivePage, HasPlacesSightingsStatesAndTurns) {
   EXPECT_EQ(drive["azimuth"].size(), kSeconds - 1U) << "one of them is invalid";
   EXPECT_EQ(drive["quality"][40], (Json{41.0, false, 9, 9}));
   EXPECT_EQ(drive["integrity"][1], (Json{1.0, false, "lost", 0.001, nullptr, 2.0}));
+}
+
+TEST_F(DrivePage, HasTheWholeReport) {
+  const auto report = drive_in(page("</script><b>"))["report"].get<std::string>();
+  EXPECT_THAT(report, HasSubstr("&lt;/script&gt;&lt;b&gt;"));
+  EXPECT_THAT(report, HasSubstr("<h2>Results</h2>"));
+  EXPECT_THAT(report, testing::EndsWith("</html>\n"));
 }
 
 TEST_F(DrivePage, HasPicturesOfTheRecordingWhereThereAreSome) {

@@ -6,6 +6,7 @@ import type { Happening, Order } from "./link/events.ts";
 import { initialPose } from "./link/initial_pose.ts";
 import { MapView } from "./map/map.ts";
 import { Drive } from "./model/drive.ts";
+import type { Heads } from "./model/head.ts";
 import { panoramaFrame, playInto, type RecordedDrive } from "./model/recorded_drive.ts";
 import { restoreSnapshot, takeSnapshot, type Snapshot } from "./model/snapshot.ts";
 import { ActionsPanel } from "./panels/actions_panel.ts";
@@ -14,6 +15,7 @@ import { EventsPanel } from "./panels/events_panel.ts";
 import { MapPanel } from "./panels/map_panel.ts";
 import { ParametersPanel } from "./panels/parameters_panel.ts";
 import { PlayerPanel } from "./panels/player_panel.ts";
+import { ReportPanel } from "./panels/report_panel.ts";
 import { StatePanel } from "./panels/state_panel.ts";
 import { SystemPanel } from "./panels/system_panel.ts";
 import { Timeline } from "./timeline/timeline.ts";
@@ -31,7 +33,7 @@ export class App {
   send: (order: Order) => void = () => {}; // to the connection
   #poseCame_ms = performance.now();
   #isLive = false;
-  #isRecorded = false;
+  #heads: Heads | undefined; // of a recorded drive
   #server = "";
   #calls = new Map<number, { resolve: (response: unknown) => void; reject: (error: Error) => void }>();
   #call = (service: string, request: unknown): Promise<unknown> =>
@@ -47,11 +49,14 @@ export class App {
     this.notify("Pose sent to /initialpose");
   });
   cameras = new Cameras(byId("cameras"), this.drive, (topics) => this.send({ kind: "images", topics }));
-  #state = new StatePanel(this.drive);
+  report = new ReportPanel();
+  #state = new StatePanel();
   #timeline = new Timeline(byId("time"), this.drive, (time) => {
     this.map.cursor_s = time;
     this.map.draw();
-    if (this.#isRecorded) this.cameras.showAt(time);
+    if (!this.#heads) return;
+    this.cameras.showAt(time);
+    this.#updateState();
   });
   #events = new EventsPanel(byId("events"), this.drive, ({ at }) => at && this.#showOnMap(at));
   #system = new SystemPanel(byId("components"), this.drive);
@@ -67,14 +72,19 @@ export class App {
 
   /** What is read rather than watched: a few times a second. */
   update(): void {
-    const silent_s = this.#isLive ? (performance.now() - this.#poseCame_ms) / 1000 : 0;
-    this.#state.update({ silent_s, link: this.connection.state, isPaused: this.#player.isPaused });
+    this.#updateState();
     this.connection.update();
     this.mapPanel.update();
     if (this.#tabs.isSeen("cameras")) this.cameras.update();
     if (this.#tabs.isSeen("events")) this.#events.update();
     if (this.#tabs.isSeen("system")) this.#system.update();
     if (this.#tabs.isSeen("time")) this.#timeline.update();
+  }
+
+  #updateState(): void {
+    const silent_s = this.#isLive ? (performance.now() - this.#poseCame_ms) / 1000 : 0;
+    const head = this.#heads?.at(this.map.cursor_s) ?? this.drive;
+    this.#state.update(head, { silent_s, link: this.connection.state, isPaused: this.#player.isPaused });
   }
 
   on(happening: Happening): void {
@@ -140,11 +150,12 @@ export class App {
 
   /** A drive that has ended: the cursor of the time line moves along it. */
   showRecorded(recorded: RecordedDrive): void {
-    this.#isRecorded = this.#timeline.staysAt = true;
-    playInto(this.drive, recorded);
+    this.#timeline.staysAt = true;
+    this.#heads = playInto(this.drive, recorded);
     this.cameras.keep(recorded.pictures, panoramaFrame);
     this.cameras.showAt(undefined);
     this.connection.recorded(recorded.title);
+    this.report.show(recorded.report);
     this.#timeline.choose(Infinity);
     this.#showWhole();
   }
@@ -157,7 +168,7 @@ export class App {
 
   /** Back or on by tens of seconds in a bag, by seconds in a recorded drive. */
   jump(steps: number): void {
-    if (this.#isRecorded) this.#timeline.step(steps);
+    if (this.#heads) this.#timeline.step(steps);
     else this.player.jump(10 * steps);
   }
 

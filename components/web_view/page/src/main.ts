@@ -24,12 +24,15 @@ if (snapshot) {
 byId("snapshot-button").onclick = () => void app.takeSnapshot();
 byId("help-button").onclick = () => help.showModal();
 byId("help-close").onclick = () => help.close();
+byId("report-button").onclick = () => app.report.open();
+byId("report-close").onclick = () => app.report.close();
 listenForShortcuts({
   f: () => app.map.follow(!app.map.follows),
   a: () => app.map.fit(),
   m: () => app.mapPanel.toggleMeasure(),
   p: () => app.mapPanel.togglePlace(),
   s: () => void app.takeSnapshot(),
+  r: () => app.report.open(),
   " ": () => void app.player.toggle(),
   ",": () => app.jump(-1),
   ".": () => app.jump(1),

@@ -3,6 +3,7 @@
 import type { Role } from "../link/roles.ts";
 import type { Drive } from "./drive.ts";
 import type { Pose2 } from "./geometry.ts";
+import { headOf, Heads } from "./head.ts";
 import * as m from "./messages.ts";
 import { covariance6, headerOf, poseOf, stampOf } from "./message_parts.ts";
 
@@ -14,6 +15,7 @@ type Maybe = number | null; // null: unknown
 export interface RecordedDrive {
   version: 1;
   title: string;
+  report: string; // the page with all tables and plots, as HTML
   enhanced: [time: number, ...Pose, xx: Maybe, xy: Maybe, yy: Maybe, speed: number][]; // covariance of the position in m²
   binocular: [time: number, ...Pose][];
   truth: [time: number, ...Pose][];
@@ -66,7 +68,14 @@ function messagesOf(recorded: RecordedDrive): [time: number, role: Role, message
   return messages.sort(([a], [b]) => a - b);
 }
 
-export function playInto(drive: Drive, recorded: RecordedDrive): void {
+/** Returns the head of the page at each time of the drive. */
+export function playInto(drive: Drive, recorded: RecordedDrive): Heads {
   drive.yawOfFrame.set(panoramaFrame, recorded.panoramaYaw);
-  for (const [, role, message] of messagesOf(recorded)) drive.take({ role, topic: role, message });
+  const heads = new Heads();
+  const messages = messagesOf(recorded);
+  messages.forEach(([time, role, message], i) => {
+    drive.take({ role, topic: role, message });
+    if (time !== messages[i + 1]?.[0]) heads.add(time, headOf(drive));
+  });
+  return heads;
 }

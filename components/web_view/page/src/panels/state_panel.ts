@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The head of the page: the state in one line, and the figures of the moment. */
-import type { Drive } from "../model/drive.ts";
+import type { Head } from "../model/head.ts";
 import { metres, stateLine, type Known } from "../model/state_line.ts";
 import { byId, clock, h, setText } from "../ui/dom.ts";
 import { setGlyph } from "../ui/glyph.ts";
 
-type Figure = [label: string, text: (drive: Drive) => string | undefined];
+type Figure = [label: string, text: (head: Head) => string | undefined];
 
 const figures: Figure[] = [
   ["Position", ({ ellipse }) => (ellipse ? `±${metres(ellipse.major)}` : undefined)],
@@ -20,21 +20,20 @@ const figures: Figure[] = [
 export class StatePanel {
   #figures = figures.map(([label, text]) => ({ text, value: h("dd"), element: h("div", { hidden: true }, h("dt", {}, label)) }));
 
-  constructor(readonly drive: Drive) {
+  constructor() {
     for (const { element, value } of this.#figures) element.append(value);
     byId("figures").append(...this.#figures.map(({ element }) => element));
   }
 
-  update(reception: Pick<Known, "silent_s" | "link" | "isPaused">): void {
-    const { drive } = this;
-    const { level, title, reason } = stateLine({ state: drive.state, integrity: drive.integrity, quality: drive.quality, ...reception });
+  update(head: Head, reception: Pick<Known, "silent_s" | "link" | "isPaused">): void {
+    const { level, title, reason } = stateLine({ state: head.state, integrity: head.integrity, quality: head.quality, ...reception });
     byId("state").dataset.level = level;
     setGlyph(byId("state-glyph"), level);
     setText(byId("state-title"), title);
     setText(byId("state-reason"), reason);
     document.title = `${title} – panvo`;
     for (const { element, value, text } of this.#figures) {
-      const shown = text(drive);
+      const shown = text(head);
       element.hidden = shown === undefined;
       if (shown !== undefined) setText(value, shown);
     }

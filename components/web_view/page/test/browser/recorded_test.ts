@@ -68,7 +68,7 @@ const show = (colour: number) =>
     colour,
   );
 
-test("the cursor moves along a recorded drive, with its pictures", async () => {
+test("the cursor moves along a recorded drive, with its pictures and the head of the page", async () => {
   const file = path.join(folder, "drive.html");
   const pictures = await colouredPictures();
   fs.writeFileSync(file, recordedPage({ ...recordedStreet(), pictures: { left: pictures, panorama: pictures } }));
@@ -76,6 +76,7 @@ test("the cursor moves along a recorded drive, with its pictures", async () => {
   assert.equal(await textOf("#link-text"), "Recorded drive");
   assert.equal(await page.$eval("#link", (element) => (element as HTMLElement).title), "a street");
   assert.equal(await textOf("#state-title"), "Position known");
+  assert.match(await textOf("#figures"), /True error\s+0\.00 m/i);
   await show(1); // at the end
   const chart = await (await page.$(".chart:not([hidden]) .u-over"))!.boundingBox();
   await page.mouse.move(chart!.x + 0.2 * chart!.width, chart!.y + chart!.height / 2);
@@ -83,7 +84,26 @@ test("the cursor moves along a recorded drive, with its pictures", async () => {
   near(await cursor_s(), 2, 0.2);
   await page.mouse.move(2, 2);
   near(await cursor_s(), 2, 0.2); // it stays
+  assert.match(await textOf("#figures"), /True error\s+0\.2\d m/i);
   for (let i = 0; i < 5; ++i) await page.keyboard.press(".");
   await show(1);
   near(await cursor_s(), 7, 0.2);
+  assert.equal(await textOf("#state-title"), "Stereo cameras see too little");
+  assert.match(await textOf("#state-reason"), /a bus/);
+  assert.match(await textOf("#figures"), /True error\s+0\.[67]\d m/i);
+});
+
+test("a recorded drive has its report", async () => {
+  const isShown = () => page.$eval("#report", (dialog) => (dialog as HTMLDialogElement).open);
+  await page.click("#report-button");
+  const report = await (await page.$("#report iframe"))!.contentFrame();
+  assert.equal(await report.$eval("h1", (element) => element.innerText), "Error after 10 m");
+  assert.equal(await isShown(), true);
+  await page.click("#report-close");
+  assert.equal(await isShown(), false);
+  await page.keyboard.press("r");
+  assert.equal(await isShown(), true);
+  await page.click("#report iframe");
+  await page.keyboard.press("Escape");
+  assert.equal(await isShown(), false);
 });

@@ -56,3 +56,13 @@ test("the moment of the cursor has its own pose and the place recognised last", 
   assert.equal(late.recognised?.place, 7);
   near(late.recognised!.heading, -Math.PI / 2, 1e-9);
 });
+
+test("the head of the page is that of the cursor's time", () => {
+  const heads = playInto(new Drive(), recordedStreet());
+  assert.equal(heads.at(6)?.state?.reason, "a bus");
+  near(heads.at(5)!.error_m, 0.5, 1e-6);
+  near(heads.at(5)!.driven_m, 5 * Math.hypot(1, 0.1), 1e-6);
+  near(heads.at(5)!.now - heads.at(5)!.begin, 5, 1e-6);
+  assert.equal(heads.at(-1), heads.at(0));
+  near(heads.at()!.error_m, 0, 1e-6);
+});

@@ -7,6 +7,7 @@ export function recordedStreet(): RecordedDrive {
   return {
     version: 1,
     title: "a street",
+    report: "<!doctype html><h1>Error after 10 m</h1>",
     truth: times.map((time) => [time, time, 0, 0]),
     binocular: times.map((time) => [time, time, time / 10, 0]),
     enhanced: times.map((time) => [time, time, time < 8 ? time / 10 : 0, 0, 0.04, 0, 0.01, 1]),
