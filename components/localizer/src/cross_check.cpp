@@ -32,7 +32,7 @@ constexpr double kNoDirection_rad2 = 0.1 * 0.1;  // unknown: nothing moves, or s
 constexpr double kFarthest_m = 1000.0;           // what moves less beside the path than objects there does not move
 constexpr double kStandingReach = 3.0;           // standard deviations of the turn, which looks like motion there
 constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // objects beside the path are farther away, in the median
-constexpr double kSameAngle_rad = 0.1;
+constexpr double kSameAngle_rad = 0.1, kSameSigma_rad = kSameAngle_rad / 3.0;
 constexpr double kLasting_m = 30.0;
 // A stereo camera mounted so far askew shows it in its path; a panoramic camera looks the same at any rotation.
 constexpr double kNoStereoMount_rad = 10.0 * vision::kDegree;
@@ -160,6 +160,16 @@ double CrossCheck::direction_sigma_rad() const {
   const double off_rad = std::abs(offset.estimate_rad());
   const double turned_rad = off_rad > kNoStereoMount_rad ? 0.0 : std::max(0.0, off_rad - kAlike_rad);
   return std::hypot(turned_rad, std::sqrt(offset.variance_rad2()));
+}
+
+std::optional<MountDirection> CrossCheck::mount_direction() const {
+  if (lasting_ && lasting_->way_m > 0.0) {
+    return MountDirection{vision::wrapped(lasting_->seen_rad + camera_turned_rad_), kSameSigma_rad * kSameSigma_rad};
+  }
+  DirectionOffset offset = direction_offset_;
+  if (seen_) offset.add(seen_->difference_rad, seen_->variance_rad2);
+  if (!offset.is_measured()) return std::nullopt;
+  return MountDirection{vision::wrapped(offset.estimate_rad() + camera_turned_rad_), offset.variance_rad2()};
 }
 
 auto CrossCheck::moved(const OdometryBuffer& chain, std::int64_t from_ns, std::int64_t to_ns)

@@ -118,6 +118,7 @@ bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
   const auto at = chain_.at(in_odometry_time(stamp_ns));
   if (!at) return false;
   graph_.add_built(id, stamp_ns, *at);
+  mounts_.add_built(id, stamp_ns);
   return true;
 }
 
@@ -152,6 +153,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   last_from_ns_.reset();
   turn_seen_.reset();
   check_.forget();
+  mounts_.forget_stamps();
 }
 
 bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {

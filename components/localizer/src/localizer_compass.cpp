@@ -58,6 +58,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   if (wrong != Wrong::kPanoramas) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
   const auto unsure_since_ns = check_.add_ways(chain_, stretch, azimuth, way_variance_m2);
   if (unsure_since_ns) doubtful_ns_ = to_ns;
+  mounts_.add(azimuth.to_ns, check_.mount_direction());
 
   const double turn_rate = azimuth.change_rad / vision::seconds(from_ns, to_ns);
   const bool is_straight = std::max(std::abs(turn_rate), std::abs(rate_change)) < kStraight;

@@ -18,6 +18,7 @@ namespace {
 // Of an image's arrival stamp. Larger clock offsets show in the first bend; until then sightings on straight roads
 // count as well.
 constexpr double kMaxStampSigma_s = 0.01;
+constexpr double kCameraFromBase_m = 1.0;  // from base_link, about which the vehicle turns in the landmark's frame
 constexpr double kUnsaidYaw_rad = 3.0;
 // For the components left open by an external pose: a click on a flat map.
 constexpr double kUnsaidHeight_m = 10.0;
@@ -34,13 +35,14 @@ Correction Localizer::add(const LandmarkSighting& received) {
     return correction;
   };
   if (const auto fault = fault_of(received.landmark_from_base, received.covariance)) return rejected(*fault);
-  const LandmarkSighting sighting = with_uncertain_clock(received);
+  const LandmarkSighting timed = with_uncertain_clock(received);
+  const LandmarkSighting sighting = with_uncertain_mount(timed);
   const auto at = chain_.at(in_odometry_time(sighting.stamp_ns));
   if (!at) return rejected("no odometry stored for that time");
   const auto landmark = graph_.landmark(sighting.landmark_id);
   if (!landmark) return rejected(fmt::format("landmark {} is not known", sighting.landmark_id));
   correction.map_from_base_before = correction.map_from_base_after = graph_.carried(*at).map_from_base;
-  mounting_.add(sighting, *at);  // the path along a pass shows the mounting, wherever the landmark is
+  mounting_.add(timed, *at);  // the path along a pass shows the mounting, wherever the landmark is
   const Verdict verdict = judge(sighting, *landmark, *at);
   correction.chi_square = verdict.chi_square;
   if (!verdict.objection.empty()) {
@@ -86,6 +88,15 @@ LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sightin
         is_clock_doubtful_ ? kUnknownClock_s : std::min(std::sqrt(clock_.variance_s2()), kMaxStampSigma_s);
     wider.covariance += 2.0 * vision::stamp_covariance(sighting.landmark_from_base, *twist, sigma_s);
   }
+  return wider;
+}
+
+/// Adds what a panoramic camera that was rotated on its mount since the landmark was built makes of the pose.
+LandmarkSighting Localizer::with_uncertain_mount(const LandmarkSighting& sighting) const {
+  const double turned_rad = mounts_.turned_rad(sighting.landmark_id);
+  LandmarkSighting wider = sighting;
+  wider.covariance(vision::kYaw, vision::kYaw) += turned_rad * turned_rad;
+  wider.covariance.topLeftCorner<2, 2>() += std::pow(kCameraFromBase_m * turned_rad, 2) * Eigen::Matrix2d::Identity();
   return wider;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "panvo/localizer/localizer.hpp"
@@ -53,6 +54,21 @@ class Straight {
     camera_turned_rad -= rad;
   }
 
+  void build(std::uint32_t landmark) {
+    localizer.add_built(landmark, odometry_.stamp_ns);
+    built_x_m_[landmark] = true_x_m_;
+  }
+
+  /// A place in a panorama, exact but for the heading. Returns whether it is believed.
+  bool sees(std::uint32_t landmark, double heading_error_rad) {
+    LandmarkSighting sighting{odometry_.stamp_ns, landmark};
+    sighting.landmark_from_base.translation().x() = true_x_m_ - built_x_m_.at(landmark);
+    sighting.landmark_from_base.linear() = vision::so3_exp({0.0, 0.0, heading_error_rad});
+    sighting.covariance = 0.05 * 0.05 * vision::Matrix6d::Identity();
+    sighting.covariance.bottomRightCorner<3, 3>() = 0.005 * 0.005 * Eigen::Matrix3d::Identity();
+    return localizer.add(sighting).kind != CorrectionKind::kRejected;
+  }
+
   /// Horizontal error in standard deviations.
   double error_in_sigmas() const {
     const auto& pose = localizer.latest();
@@ -91,6 +107,7 @@ class Straight {
   OdometryPose odometry_;
   std::int64_t frame_ = 0;
   double true_x_m_ = 0.0;
+  std::map<std::uint32_t, double> built_x_m_;
 };
 
 TEST(LocalizerDispute, AgreesWithAVehicleThatDrivesAsBothSay) {
@@ -178,6 +195,27 @@ TEST(LocalizerDispute, GoesOnWithTheOdometryWhereThePanoramicCameraWasTurned) {
   const double yaw_sigma_rad = std::sqrt(vehicle.localizer.latest().covariance(5, 5));
   EXPECT_NEAR(yaw_sigma_rad, 10.0 * vision::kDegree, 1.0 * vision::kDegree)
       << "one chance in nine that the vehicle turned";
+}
+
+TEST(LocalizerDispute, TakesNoHeadingFromAPlaceByAPanoramicCameraThatWasTurnedSince) {
+  for (const double degrees : {8.0, -40.0}) {
+    Straight vehicle;
+    vehicle.drive(4.0);
+    vehicle.build(1);
+    vehicle.turn_camera(degrees * vision::kDegree);
+    vehicle.drive(12.0);
+    vehicle.build(2);
+    for (int i = 0; i < 3; ++i) {
+      vehicle.drive(0.2);
+      EXPECT_TRUE(vehicle.sees(1, vehicle.camera_turned_rad)) << degrees;
+    }
+    EXPECT_LT(vehicle.error_m(), 0.2) << degrees;
+    vehicle.drive(4.0);
+    EXPECT_LT(vehicle.error_m(), 0.3) << degrees << ": the heading is still that of the odometry";
+    EXPECT_TRUE(vehicle.sees(2, 0.0)) << degrees;
+    const double yaw_sigma_rad = std::sqrt(vehicle.localizer.latest().covariance(5, 5));
+    EXPECT_LT(yaw_sigma_rad, 2.0 * vision::kDegree) << degrees << ": a place built after the turn tells it";
+  }
 }
 
 TEST(LocalizerDispute, BelievesPanoramasThatTurnAsAVehicleMay) {

@@ -13,6 +13,7 @@
 #include "panvo/localizer/dispute.hpp"
 #include "panvo/localizer/doubt.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
+#include "panvo/localizer/mounting_history.hpp"
 #include "panvo/localizer/odometry_buffer.hpp"
 
 namespace panvo::localizer {
@@ -58,6 +59,8 @@ class CrossCheck {
 
   /// Standard deviation of the direction of the whole path.
   double direction_sigma_rad() const;
+  /// Of the two mounts, with what has lasted for some panoramas; nullopt while it is not measured.
+  std::optional<MountDirection> mount_direction() const;
   const DirectionOffset& direction_offset() const noexcept { return direction_offset_; }
 
  private:

@@ -16,6 +16,7 @@
 #include "panvo/localizer/gnss_trial.hpp"
 #include "panvo/localizer/local_pose_graph.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
+#include "panvo/localizer/mounting_history.hpp"
 #include "panvo/localizer/odometry_buffer.hpp"
 #include "panvo/localizer/odometry_origin.hpp"
 #include "panvo/localizer/turn_error_filter.hpp"
@@ -196,6 +197,7 @@ class Localizer {
   bool vouches(const PendingRelocalization& before, const PendingRelocalization& now) const;
   bool agree(const PendingRelocalization& before, const PendingRelocalization& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
+  LandmarkSighting with_uncertain_mount(const LandmarkSighting& sighting) const;
   void search_clock(const AzimuthMeasurement& azimuth);
   void set_clock(double ahead_s, std::int64_t panorama_stamp_ns);
   void agree(std::int64_t panorama_stamp_ns, double disagreement_rad, double rate_change_rad_s, double sigma_rad);
@@ -223,6 +225,7 @@ class Localizer {
   DeadReckoning dead_reckoning_;
   LocalPoseGraph graph_;
   ExtrinsicsMonitor mounting_;
+  MountingHistory mounts_;
   GnssTrial fix_trial_;                      // of fixes that are not used
   std::optional<double> last_fix_at_way_m_;  // used or on trial
   std::optional<PoseInMap> known_enu_;
