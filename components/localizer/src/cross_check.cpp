@@ -32,6 +32,7 @@ constexpr double kNoDirection_rad2 = 0.1 * 0.1;  // unknown: nothing moves, or s
 constexpr double kFarthest_m = 1000.0;           // what moves less beside the path than objects there does not move
 constexpr double kStandingReach = 3.0;           // standard deviations of the turn, which looks like motion there
 constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // objects beside the path are farther away, in the median
+constexpr double kApart = 3.0;                            // standard deviations: of two explanations, only one
 constexpr double kSameAngle_rad = 0.1, kSameSigma_rad = kSameAngle_rad / 3.0;
 constexpr double kLasting_m = 30.0;
 // A stereo camera mounted so far askew shows it in its path; a panoramic camera looks the same at any rotation.
@@ -73,14 +74,16 @@ void CrossCheck::begin_reference() {
   seen_.reset();
 }
 
-std::optional<Wrong> CrossCheck::add_turns(const OdometryBuffer& chain, const Stretch& stretch, double disagreement_rad,
-                                           bool is_too_much) {
+std::optional<Wrong> CrossCheck::add_turns(const OdometryBuffer& chain, const Stretch& stretch,
+                                           const AzimuthMeasurement& azimuth, double disagreement_rad, bool is_too_much,
+                                           double way_variance_m2) {
   if (!is_too_much) {
     turn_dispute_.end();
     return std::nullopt;
   }
-  turn_dispute_.add(stretch.reference_ns, stretch.to_ns, disagreement_rad,
-                    wrong_turn(chain, stretch.to_ns, disagreement_rad));
+  const auto [wrong, doubt] = judge_turn(chain, stretch, azimuth, disagreement_rad, way_variance_m2);
+  if (!turn_dispute_.is_on()) turn_doubt_ = doubt;
+  turn_dispute_.add(stretch.reference_ns, stretch.to_ns, disagreement_rad, wrong);
   return turn_dispute_.wrong();
 }
 
@@ -89,7 +92,7 @@ std::optional<Wrong> CrossCheck::add_turns(const OdometryBuffer& chain, const St
 /// rotated.
 std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const Stretch& stretch,
                                                  const AzimuthMeasurement& azimuth, double way_variance_m2) {
-  if (turn_dispute_.is_on()) chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(kDoubt));
+  if (turn_dispute_.is_on()) chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(turn_doubt_));
   const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
   if (odometry && azimuth.motion_azimuth_variance_rad2 > 0.0) {
     const auto verdict = judge_way(azimuth, *odometry, way_variance_m2);
@@ -198,15 +201,43 @@ bool CrossCheck::goes_on_steadily(const OdometryBuffer& chain, std::int64_t to_n
 }
 
 /// Panoramas see all around, and moving objects cover little of them, so usually odometry is the one that followed
-/// something else [Lu2015 6]. If odometry continues the previous motion and the panoramas turn implausibly, their
-/// camera was rotated.
-Wrong CrossCheck::wrong_turn(const OdometryBuffer& chain, std::int64_t to_ns, double disagreement_rad) const {
-  const auto gone = gone_on(chain, to_ns);
-  if (!gone) return Wrong::kOdometry;
-  const bool is_steady = std::abs(gone->more.turn_rad) < kSteady * gone->turn_sigma_rad;
+/// something else [Lu2015 6]. If odometry continues the previous motion, and the panoramas turn implausibly or show that
+/// a mount was turned, their camera was rotated.
+auto CrossCheck::judge_turn(const OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
+                            double disagreement_rad, double way_variance_m2) const -> TurnVerdict {
+  const auto gone = gone_on(chain, stretch.to_ns);
+  if (!gone || std::abs(gone->more.turn_rad) >= kSteady * gone->turn_sigma_rad) return {Wrong::kOdometry, kDoubt};
+  const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
+  if (odometry && shows_turned_mount(azimuth, *odometry, disagreement_rad, way_variance_m2))
+    return {Wrong::kPanoramas, kDoubt * kDoubt};
   const bool is_impossible =
       std::abs(vision::wrapped(gone->more.turn_rad + disagreement_rad)) > kImpossible * gone->turn_sigma_rad;
-  return is_steady && is_impossible ? Wrong::kPanoramas : Wrong::kOdometry;
+  return {is_impossible ? Wrong::kPanoramas : Wrong::kOdometry, kDoubt};
+}
+
+/// A camera that is rotated on its mount sees the vehicle turn, and its motion turned back by as much. A vehicle that
+/// turns goes on ahead.
+bool CrossCheck::shows_turned_mount(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry,
+                                    double disagreement_rad, double way_variance_m2) const {
+  const bool are_directions_known = odometry.way_m.norm() >= kMinWay_m && azimuth.motion_azimuth_variance_rad2 > 0.0 &&
+                                    azimuth.motion_azimuth_variance_rad2 <= kNoDirection_rad2 &&
+                                    direction_offset_.is_measured();
+  if (!are_directions_known) return false;
+  const auto [seen_rad, variance_rad2] = seen_directions(azimuth, odometry, way_variance_m2);
+  const double errors_rad = kApart * std::sqrt(variance_rad2 + direction_offset_.variance_rad2());
+  const double turned_back_rad = vision::wrapped(seen_rad - direction_offset_.estimate_rad());
+  return std::abs(disagreement_rad) > 2.0 * errors_rad &&
+         std::abs(vision::wrapped(turned_back_rad + disagreement_rad)) < errors_rad;
+}
+
+/// Difference of the directions of motion, with its variance.
+auto CrossCheck::seen_directions(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry,
+                                 double way_variance_m2) const -> Seen {
+  const double length_m = odometry.way_m.norm();
+  const double in_bend_rad = kCameraApart_m * odometry.turn_rad / length_m;
+  return {vision::wrapped(azimuth.motion_azimuth_rad - azimuth_of(odometry.way_m) - camera_turned_rad_),
+          azimuth.motion_azimuth_variance_rad2 + kDirectionError_rad * kDirectionError_rad + in_bend_rad * in_bend_rad +
+              way_variance_m2 / (length_m * length_m)};
 }
 
 /// Whether odometry's path agrees with the panoramas. Changes nothing: see take().
@@ -226,10 +257,7 @@ auto CrossCheck::judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& 
     if (do_panoramas_stand && length_m > kClearlyMoved_m) verdict.off_m = length_m;
     return verdict;
   }
-  const double in_bend_rad = kCameraApart_m * odometry.turn_rad / length_m;
-  const double variance = azimuth.motion_azimuth_variance_rad2 + kDirectionError_rad * kDirectionError_rad +
-                          in_bend_rad * in_bend_rad + way_variance_m2 / (length_m * length_m);
-  const double seen_rad = vision::wrapped(azimuth.motion_azimuth_rad - azimuth_of(odometry.way_m) - camera_turned_rad_);
+  const auto [seen_rad, variance] = seen_directions(azimuth, odometry, way_variance_m2);
   const double difference_rad = vision::wrapped(seen_rad - direction_offset_.estimate_rad());
   const double max_rad = contradiction_sigmas_ * std::sqrt(variance + direction_offset_.variance_rad2());
   if (std::abs(difference_rad) <= max_rad) {

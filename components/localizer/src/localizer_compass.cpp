@@ -53,7 +53,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     return AzimuthUse::kUnclear;
   }
   const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
-  const auto wrong = check_.add_turns(chain_, stretch, disagreement, is_contradicted);
+  const auto wrong = check_.add_turns(chain_, stretch, azimuth, disagreement, is_contradicted, way_variance_m2);
   if (wrong == Wrong::kOdometry) inflate(from_ns, to_ns, disagreement);
   if (wrong != Wrong::kPanoramas) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
   const auto unsure_since_ns = check_.add_ways(chain_, stretch, azimuth, way_variance_m2);

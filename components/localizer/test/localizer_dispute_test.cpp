@@ -50,8 +50,8 @@ class Straight {
 
   /// Rotates the panoramic camera on its mount between two panoramas.
   void turn_camera(double rad) {
-    compass_rad = -rad;  // it sees the vehicle turn the other way
-    camera_turned_rad -= rad;
+    compass_rad = rad;         // as if the vehicle turned
+    camera_turned_rad -= rad;  // and went on aside
   }
 
   void build(std::uint32_t landmark) {
@@ -193,8 +193,34 @@ TEST(LocalizerDispute, GoesOnWithTheOdometryWhereThePanoramicCameraWasTurned) {
   EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
   EXPECT_LT(vehicle.error_m(), 0.1);
   const double yaw_sigma_rad = std::sqrt(vehicle.localizer.latest().covariance(5, 5));
-  EXPECT_NEAR(yaw_sigma_rad, 10.0 * vision::kDegree, 1.0 * vision::kDegree)
-      << "one chance in nine that the vehicle turned";
+  EXPECT_NEAR(yaw_sigma_rad, 30.0 / 9.0 * vision::kDegree, 0.5 * vision::kDegree)
+      << "one chance in 81 that the vehicle turned";
+}
+
+TEST(LocalizerDispute, KnowsByTheDirectionOfMotionThatAPanoramicCameraWasTurned) {
+  Straight vehicle;
+  vehicle.drive(4.0);
+  vehicle.turn_camera(4.0 * vision::kDegree);  // as a vehicle may turn, too
+  vehicle.drive(0.2);
+  EXPECT_EQ(vehicle.last_use, AzimuthUse::kDoubted);
+  vehicle.drive(8.0);
+  EXPECT_EQ(vehicle.last_use, AzimuthUse::kFused) << "with the new mounting";
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
+  EXPECT_LT(vehicle.error_m(), 0.1);
+  EXPECT_LT(vehicle.sigma_m(), 1.0);
+}
+
+TEST(LocalizerDispute, DoubtsATurnOfTheMountMoreWhereTheDirectionOfMotionStays) {
+  const auto yaw_sigma_deg = [](bool is_mount) {
+    Straight vehicle;
+    vehicle.drive(4.0);
+    vehicle.turn_camera(9.0 * vision::kDegree);
+    if (!is_mount) vehicle.camera_turned_rad = 0.0;
+    vehicle.drive(0.2);
+    return std::sqrt(vehicle.localizer.latest().covariance(5, 5)) / vision::kDegree;
+  };
+  EXPECT_NEAR(yaw_sigma_deg(true), 1.0, 0.1) << "one chance in 81 that the vehicle turned";
+  EXPECT_NEAR(yaw_sigma_deg(false), 3.0, 0.1) << "one in 9";
 }
 
 TEST(LocalizerDispute, TakesNoHeadingFromAPlaceByAPanoramicCameraThatWasTurnedSince) {

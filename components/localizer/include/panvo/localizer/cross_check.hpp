@@ -37,9 +37,9 @@ class CrossCheck {
   void begin_reference();
 
   /// Adds the turns of a stretch: `disagreement_rad` is panoramas minus odometry, `is_too_much` whether it exceeds the
-  /// errors of both. Returns which one is wrong; nullopt if neither.
-  std::optional<Wrong> add_turns(const OdometryBuffer& chain, const Stretch& stretch, double disagreement_rad,
-                                 bool is_too_much);
+  /// errors of both. `way_variance_m2`: as below. Returns which one is wrong; nullopt if neither.
+  std::optional<Wrong> add_turns(const OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
+                                 double disagreement_rad, bool is_too_much, double way_variance_m2);
 
   /// Adds the ways of a stretch, after add_turns and its consequences. `way_variance_m2`: odometry's variance, summed over both
   /// axes. Returns the time since which the vehicle may have moved differently from odometry; nullopt if it has not.
@@ -78,6 +78,11 @@ class CrossCheck {
     double difference_rad, variance_rad2;
   };
 
+  struct TurnVerdict {
+    Wrong wrong;
+    double doubt;  // probability that it is the other one
+  };
+
   struct Lasting {  // difference between the directions
     std::int64_t reference_ns;
     double seen_rad;
@@ -106,7 +111,11 @@ class CrossCheck {
   static std::optional<TurnAndWay> moved(const OdometryBuffer& chain, std::int64_t from_ns, std::int64_t to_ns);
   std::optional<GoneOn> gone_on(const OdometryBuffer& chain, std::int64_t to_ns) const;
   bool goes_on_steadily(const OdometryBuffer& chain, std::int64_t to_ns) const;
-  Wrong wrong_turn(const OdometryBuffer& chain, std::int64_t to_ns, double disagreement_rad) const;
+  Seen seen_directions(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
+  bool shows_turned_mount(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double disagreement_rad,
+                          double way_variance_m2) const;
+  TurnVerdict judge_turn(const OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
+                         double disagreement_rad, double way_variance_m2) const;
   WayVerdict judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
   void take(const WayVerdict& verdict);
   Lasting lasting_with(std::int64_t reference_ns, double seen_rad, double length_m) const;
@@ -120,6 +129,7 @@ class CrossCheck {
   DirectionOffset direction_offset_;
   double camera_turned_rad_ = 0.0;  // accumulated rotation of the panoramic camera on its mount
   Dispute turn_dispute_, way_dispute_;
+  double turn_doubt_ = 0.0;                // of the verdict on the dispute about turns
   std::optional<std::int64_t> agreed_ns_;  // last panorama that agreed with odometry
   std::optional<Seen> seen_;               // last, against the current reference
   std::optional<Lasting> lasting_;         // while the directions differ
