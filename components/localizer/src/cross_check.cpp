@@ -207,23 +207,22 @@ auto CrossCheck::judge_turn(const OdometryBuffer& chain, const Stretch& stretch,
                             double disagreement_rad, double way_variance_m2) const -> TurnVerdict {
   const auto gone = gone_on(chain, stretch.to_ns);
   if (!gone || std::abs(gone->more.turn_rad) >= kSteady * gone->turn_sigma_rad) return {Wrong::kOdometry, kDoubt};
-  const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
-  if (odometry && shows_turned_mount(azimuth, *odometry, disagreement_rad, way_variance_m2))
+  if (shows_turned_mount(chain, stretch, azimuth, disagreement_rad, way_variance_m2))
     return {Wrong::kPanoramas, kDoubt * kDoubt};
   const bool is_impossible =
       std::abs(vision::wrapped(gone->more.turn_rad + disagreement_rad)) > kImpossible * gone->turn_sigma_rad;
   return {is_impossible ? Wrong::kPanoramas : Wrong::kOdometry, kDoubt};
 }
 
-/// A camera that is rotated on its mount sees the vehicle turn, and its motion turned back by as much. A vehicle that
-/// turns goes on ahead.
-bool CrossCheck::shows_turned_mount(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry,
-                                    double disagreement_rad, double way_variance_m2) const {
-  const bool are_directions_known = odometry.way_m.norm() >= kMinWay_m && azimuth.motion_azimuth_variance_rad2 > 0.0 &&
-                                    azimuth.motion_azimuth_variance_rad2 <= kNoDirection_rad2 &&
-                                    direction_offset_.is_measured();
+bool CrossCheck::shows_turned_mount(const OdometryBuffer& chain, const Stretch& stretch,
+                                    const AzimuthMeasurement& azimuth, double disagreement_rad,
+                                    double way_variance_m2) const {
+  const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
+  const bool are_directions_known =
+      odometry && odometry->way_m.norm() >= kMinWay_m && azimuth.motion_azimuth_variance_rad2 > 0.0 &&
+      azimuth.motion_azimuth_variance_rad2 <= kNoDirection_rad2 && direction_offset_.is_measured();
   if (!are_directions_known) return false;
-  const auto [seen_rad, variance_rad2] = seen_directions(azimuth, odometry, way_variance_m2);
+  const auto [seen_rad, variance_rad2] = seen_directions(azimuth, *odometry, way_variance_m2);
   const double errors_rad = kApart * std::sqrt(variance_rad2 + direction_offset_.variance_rad2());
   const double turned_back_rad = vision::wrapped(seen_rad - direction_offset_.estimate_rad());
   return std::abs(disagreement_rad) > 2.0 * errors_rad &&

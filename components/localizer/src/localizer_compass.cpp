@@ -48,11 +48,13 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
                                      .trace();  // as stated by odometry, before it is inflated
   const bool is_contradicted = excess > 1.0;
   if (!is_contradicted) agree(azimuth.to_ns, disagreement, rate_change, std::sqrt(spread));
-  if (from_ns < clock_found_ns_ || (is_contradicted && may_be_of_another_time(azimuth, kAgree * std::sqrt(spread)))) {
+  const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
+  const bool is_unexplained =
+      is_contradicted && !check_.shows_turned_mount(chain_, stretch, azimuth, disagreement, way_variance_m2);
+  if (from_ns < clock_found_ns_ || (is_unexplained && may_be_of_another_time(azimuth, kAgree * std::sqrt(spread)))) {
     azimuth_ns_ = to_ns;
     return AzimuthUse::kUnclear;
   }
-  const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
   const auto wrong = check_.add_turns(chain_, stretch, azimuth, disagreement, is_contradicted, way_variance_m2);
   if (wrong == Wrong::kOdometry) inflate(from_ns, to_ns, disagreement);
   if (wrong != Wrong::kPanoramas) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);

@@ -20,7 +20,7 @@ constexpr int kFramesAPanorama = 5;
 /// A vehicle driving straight at 5 m/s with 25 stereo pairs and 5 panoramas per second, and faults of its cameras.
 class Straight {
  public:
-  Straight() : localizer(parameters()) { localizer.add(odometry_); }
+  explicit Straight(const Parameters& of = parameters()) : localizer(of) { localizer.add(odometry_); }
 
   void drive(double seconds) {
     const int frames = static_cast<int>(std::lround(seconds * 25.0));
@@ -207,6 +207,19 @@ TEST(LocalizerDispute, KnowsByTheDirectionOfMotionThatAPanoramicCameraWasTurned)
   EXPECT_EQ(vehicle.last_use, AzimuthUse::kFused) << "with the new mounting";
   EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
   EXPECT_LT(vehicle.error_m(), 0.1);
+  EXPECT_LT(vehicle.sigma_m(), 1.0);
+}
+
+TEST(LocalizerDispute, KnowsByTheDirectionThatNoOtherClockExplainsATurnOfTheMount) {
+  Parameters with_unknown_clock = Straight::parameters();
+  with_unknown_clock.clock_sigma_s = Parameters().clock_sigma_s;
+  Straight vehicle(with_unknown_clock);
+  vehicle.drive(4.0);
+  vehicle.turn_camera(14.0 * vision::kDegree);
+  vehicle.drive(0.2);
+  EXPECT_EQ(vehicle.last_use, AzimuthUse::kDoubted);
+  vehicle.drive(2.0);
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
   EXPECT_LT(vehicle.sigma_m(), 1.0);
 }
 

@@ -33,6 +33,11 @@ class CrossCheck {
   /// Processes the latest odometry step.
   void add_step(const OdometryBuffer& chain);
 
+  /// Whether the direction of motion shows that one of the mounts was turned: a camera that is rotated on its mount sees
+  /// the vehicle turn, and its motion turned back by as much. A vehicle that turns goes on ahead. Arguments as below.
+  bool shows_turned_mount(const OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
+                          double disagreement_rad, double way_variance_m2) const;
+
   /// The following measurements have a new reference panorama.
   void begin_reference();
 
@@ -112,8 +117,6 @@ class CrossCheck {
   std::optional<GoneOn> gone_on(const OdometryBuffer& chain, std::int64_t to_ns) const;
   bool goes_on_steadily(const OdometryBuffer& chain, std::int64_t to_ns) const;
   Seen seen_directions(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
-  bool shows_turned_mount(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double disagreement_rad,
-                          double way_variance_m2) const;
   TurnVerdict judge_turn(const OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
                          double disagreement_rad, double way_variance_m2) const;
   WayVerdict judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
