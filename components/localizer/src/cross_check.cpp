@@ -75,16 +75,13 @@ void CrossCheck::begin_reference() {
 }
 
 std::optional<Wrong> CrossCheck::add_turns(const OdometryBuffer& chain, const Stretch& stretch,
-                                           const AzimuthMeasurement& azimuth, double disagreement_rad, bool is_too_much,
-                                           double way_variance_m2) {
-  if (!is_too_much) {
+                                           const Disagreement& turns) {
+  if (!turns.is_too_much) {
     turn_dispute_.end();
     return std::nullopt;
   }
-  const auto [wrong, doubt] = judge_turn(chain, stretch, azimuth, disagreement_rad, way_variance_m2);
-  if (!turn_dispute_.is_on()) turn_doubt_ = doubt;
-  turn_dispute_.add(stretch.reference_ns, stretch.to_ns, disagreement_rad, wrong);
-  return turn_dispute_.wrong();
+  turn_dispute_.add(stretch.reference_ns, stretch.to_ns, turns.rad, judge_turn(chain, stretch.to_ns, turns));
+  return turn_dispute_.verdict().wrong;
 }
 
 /// Odometry that contradicts the panoramas followed something else. Its error is at least its component perpendicular
@@ -92,7 +89,9 @@ std::optional<Wrong> CrossCheck::add_turns(const OdometryBuffer& chain, const St
 /// rotated.
 std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const Stretch& stretch,
                                                  const AzimuthMeasurement& azimuth, double way_variance_m2) {
-  if (turn_dispute_.is_on()) chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(turn_doubt_));
+  if (turn_dispute_.is_on()) {
+    chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(turn_dispute_.verdict().doubt));
+  }
   const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
   if (odometry && azimuth.motion_azimuth_variance_rad2 > 0.0) {
     const auto verdict = judge_way(azimuth, *odometry, way_variance_m2);
@@ -106,7 +105,7 @@ std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const St
           gone ? vision::seconds(stretch.from_ns, stretch.to_ns) / vision::seconds(*agreed_ns_, stretch.to_ns) : 0.0;
       const double otherwise_m = gone ? gone->more.way_m.norm() * std::min(1.0, part) : 0.0;
       way_dispute_.add(stretch.reference_ns, stretch.to_ns, std::max(off_m.value_or(0.0), otherwise_m),
-                       Wrong::kOdometry);
+                       {Wrong::kOdometry, 0.0});
       chain.allow(stretch.from_ns, stretch.to_ns, way_dispute_.growth(1.0), 0.0);
     }
   }
@@ -157,8 +156,7 @@ std::vector<Doubt> CrossCheck::doubts(std::int64_t now_ns) const {
 /// One of the two cameras is rotated by that angle; which one is unknown. Without panoramas the stereo mount is
 /// trusted.
 double CrossCheck::direction_sigma_rad() const {
-  DirectionOffset offset = direction_offset_;
-  if (seen_) offset.add(seen_->difference_rad, seen_->variance_rad2);
+  const DirectionOffset offset = latest_offset();
   if (!offset.is_measured()) return 0.0;
   const double off_rad = std::abs(offset.estimate_rad());
   const double turned_rad = off_rad > kNoStereoMount_rad ? 0.0 : std::max(0.0, off_rad - kAlike_rad);
@@ -169,10 +167,16 @@ std::optional<MountDirection> CrossCheck::mount_direction() const {
   if (lasting_ && lasting_->way_m > 0.0) {
     return MountDirection{vision::wrapped(lasting_->seen_rad + camera_turned_rad_), kSameSigma_rad * kSameSigma_rad};
   }
-  DirectionOffset offset = direction_offset_;
-  if (seen_) offset.add(seen_->difference_rad, seen_->variance_rad2);
+  const DirectionOffset offset = latest_offset();
   if (!offset.is_measured()) return std::nullopt;
   return MountDirection{vision::wrapped(offset.estimate_rad() + camera_turned_rad_), offset.variance_rad2()};
+}
+
+/// With the last panorama.
+DirectionOffset CrossCheck::latest_offset() const {
+  DirectionOffset offset = direction_offset_;
+  if (seen_) offset.add(seen_->difference_rad, seen_->variance_rad2);
+  return offset;
 }
 
 auto CrossCheck::moved(const OdometryBuffer& chain, std::int64_t from_ns, std::int64_t to_ns)
@@ -203,19 +207,17 @@ bool CrossCheck::goes_on_steadily(const OdometryBuffer& chain, std::int64_t to_n
 /// Panoramas see all around, and moving objects cover little of them, so usually odometry is the one that followed
 /// something else [Lu2015 6]. If odometry continues the previous motion, and the panoramas turn implausibly or show that
 /// a mount was turned, their camera was rotated.
-auto CrossCheck::judge_turn(const OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
-                            double disagreement_rad, double way_variance_m2) const -> TurnVerdict {
-  const auto gone = gone_on(chain, stretch.to_ns);
+Verdict CrossCheck::judge_turn(const OdometryBuffer& chain, std::int64_t to_ns, const Disagreement& turns) const {
+  const auto gone = gone_on(chain, to_ns);
   if (!gone || std::abs(gone->more.turn_rad) >= kSteady * gone->turn_sigma_rad) return {Wrong::kOdometry, kDoubt};
-  if (shows_turned_mount(chain, stretch, azimuth, disagreement_rad, way_variance_m2))
-    return {Wrong::kPanoramas, kDoubt * kDoubt};
+  if (turns.is_of_mount) return {Wrong::kPanoramas, kDoubt * kDoubt};
   const bool is_impossible =
-      std::abs(vision::wrapped(gone->more.turn_rad + disagreement_rad)) > kImpossible * gone->turn_sigma_rad;
+      std::abs(vision::wrapped(gone->more.turn_rad + turns.rad)) > kImpossible * gone->turn_sigma_rad;
   return {is_impossible ? Wrong::kPanoramas : Wrong::kOdometry, kDoubt};
 }
 
 bool CrossCheck::shows_turned_mount(const OdometryBuffer& chain, const Stretch& stretch,
-                                    const AzimuthMeasurement& azimuth, double disagreement_rad,
+                                    const AzimuthMeasurement& azimuth, double turned_rad,
                                     double way_variance_m2) const {
   const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
   const bool are_directions_known =
@@ -225,8 +227,8 @@ bool CrossCheck::shows_turned_mount(const OdometryBuffer& chain, const Stretch& 
   const auto [seen_rad, variance_rad2] = seen_directions(azimuth, *odometry, way_variance_m2);
   const double errors_rad = kApart * std::sqrt(variance_rad2 + direction_offset_.variance_rad2());
   const double turned_back_rad = vision::wrapped(seen_rad - direction_offset_.estimate_rad());
-  return std::abs(disagreement_rad) > 2.0 * errors_rad &&
-         std::abs(vision::wrapped(turned_back_rad + disagreement_rad)) < errors_rad;
+  return std::abs(turned_rad) > 2.0 * errors_rad &&
+         std::abs(vision::wrapped(turned_back_rad + turned_rad)) < errors_rad;
 }
 
 /// Difference of the directions of motion, with its variance.

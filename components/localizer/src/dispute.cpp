@@ -5,9 +5,9 @@
 
 namespace panvo::localizer {
 
-void Dispute::add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, Wrong wrong) {
+void Dispute::add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, const Verdict& verdict) {
   if (!is_on()) {
-    wrong_ = wrong;
+    verdict_ = verdict;
   } else if (reference_ns != reference_ns_) {
     before_ += last_;
   }

@@ -49,13 +49,15 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const bool is_contradicted = excess > 1.0;
   if (!is_contradicted) agree(azimuth.to_ns, disagreement, rate_change, std::sqrt(spread));
   const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
-  const bool is_unexplained =
-      is_contradicted && !check_.shows_turned_mount(chain_, stretch, azimuth, disagreement, way_variance_m2);
-  if (from_ns < clock_found_ns_ || (is_unexplained && may_be_of_another_time(azimuth, kAgree * std::sqrt(spread)))) {
+  const CrossCheck::Disagreement turns{
+      disagreement, is_contradicted,
+      is_contradicted && check_.shows_turned_mount(chain_, stretch, azimuth, disagreement, way_variance_m2)};
+  const bool may_be_of_clock = is_contradicted && !turns.is_of_mount;
+  if (from_ns < clock_found_ns_ || (may_be_of_clock && may_be_of_another_time(azimuth, kAgree * std::sqrt(spread)))) {
     azimuth_ns_ = to_ns;
     return AzimuthUse::kUnclear;
   }
-  const auto wrong = check_.add_turns(chain_, stretch, azimuth, disagreement, is_contradicted, way_variance_m2);
+  const auto wrong = check_.add_turns(chain_, stretch, turns);
   if (wrong == Wrong::kOdometry) inflate(from_ns, to_ns, disagreement);
   if (wrong != Wrong::kPanoramas) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
   const auto unsure_since_ns = check_.add_ways(chain_, stretch, azimuth, way_variance_m2);

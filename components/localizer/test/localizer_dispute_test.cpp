@@ -126,7 +126,7 @@ TEST(LocalizerDispute, TakesNoUnknownDirectionForAVehicleThatStands) {
     vehicle.turn_variance_rad2 = 0.003 * 0.003;
     vehicle.drive(10.0);
     EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking) << farness_m;
-    EXPECT_LT(vehicle.sigma_m(), 0.2) << farness_m;
+    EXPECT_LT(vehicle.sigma_m(), 0.11) << farness_m;
   }
 }
 
@@ -136,7 +136,7 @@ TEST(LocalizerDispute, DoesNotBelieveADirectionThatThePanoramasHardlyKnow) {
   vehicle.camera_turned_rad = 2.0;  // another motion explains the panoramas better
   vehicle.drive(10.0);
   EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
-  EXPECT_LT(vehicle.sigma_m(), 0.2);
+  EXPECT_LT(vehicle.sigma_m(), 0.1);
 }
 
 TEST(LocalizerDispute, CoversWhatAMoverBeforeBothEyesTakesItAlong) {

@@ -28,23 +28,29 @@ class CrossCheck {
     std::int64_t from_ns, to_ns;  ///< in the odometry's clock
   };
 
+  /// Between the turns of a stretch.
+  struct Disagreement {
+    double rad;        ///< panoramas minus odometry
+    bool is_too_much;  ///< more than the errors of both
+    bool is_of_mount;  ///< see shows_turned_mount()
+  };
+
   explicit CrossCheck(const Parameters& parameters);
 
   /// Processes the latest odometry step.
   void add_step(const OdometryBuffer& chain);
 
   /// Whether the direction of motion shows that one of the mounts was turned: a camera that is rotated on its mount sees
-  /// the vehicle turn, and its motion turned back by as much. A vehicle that turns goes on ahead. Arguments as below.
+  /// the vehicle turn, and its motion turned back by as much. A vehicle that turns goes on ahead. `turned_rad`: turn by
+  /// panoramas minus that by odometry; `way_variance_m2`: as below.
   bool shows_turned_mount(const OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
-                          double disagreement_rad, double way_variance_m2) const;
+                          double turned_rad, double way_variance_m2) const;
 
   /// The following measurements have a new reference panorama.
   void begin_reference();
 
-  /// Adds the turns of a stretch: `disagreement_rad` is panoramas minus odometry, `is_too_much` whether it exceeds the
-  /// errors of both. `way_variance_m2`: as below. Returns which one is wrong; nullopt if neither.
-  std::optional<Wrong> add_turns(const OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
-                                 double disagreement_rad, bool is_too_much, double way_variance_m2);
+  /// Adds the turns of a stretch. Returns which one is wrong; nullopt if neither.
+  std::optional<Wrong> add_turns(const OdometryBuffer& chain, const Stretch& stretch, const Disagreement& turns);
 
   /// Adds the ways of a stretch, after add_turns and its consequences. `way_variance_m2`: odometry's variance, summed over both
   /// axes. Returns the time since which the vehicle may have moved differently from odometry; nullopt if it has not.
@@ -83,11 +89,6 @@ class CrossCheck {
     double difference_rad, variance_rad2;
   };
 
-  struct TurnVerdict {
-    Wrong wrong;
-    double doubt;  // probability that it is the other one
-  };
-
   struct Lasting {  // difference between the directions
     std::int64_t reference_ns;
     double seen_rad;
@@ -117,14 +118,16 @@ class CrossCheck {
   std::optional<GoneOn> gone_on(const OdometryBuffer& chain, std::int64_t to_ns) const;
   bool goes_on_steadily(const OdometryBuffer& chain, std::int64_t to_ns) const;
   Seen seen_directions(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
-  TurnVerdict judge_turn(const OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
-                         double disagreement_rad, double way_variance_m2) const;
+  Verdict judge_turn(const OdometryBuffer& chain, std::int64_t to_ns, const Disagreement& turns) const;
+  DirectionOffset latest_offset() const;
   WayVerdict judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
   void take(const WayVerdict& verdict);
   Lasting lasting_with(std::int64_t reference_ns, double seen_rad, double length_m) const;
   std::optional<std::int64_t> settle_break(OdometryBuffer& chain, const Stretch& stretch);
   bool is_disputed() const noexcept { return turn_dispute_.is_on() || way_dispute_.is_on(); }
-  bool is_camera_turned() const noexcept { return turn_dispute_.is_on() && turn_dispute_.wrong() == Wrong::kPanoramas; }
+  bool is_camera_turned() const noexcept {
+    return turn_dispute_.is_on() && turn_dispute_.verdict().wrong == Wrong::kPanoramas;
+  }
   bool is_fresh(std::int64_t stamp_ns, std::int64_t now_ns) const;
 
   const double contradiction_sigmas_, patience_s_;
@@ -132,7 +135,6 @@ class CrossCheck {
   DirectionOffset direction_offset_;
   double camera_turned_rad_ = 0.0;  // accumulated rotation of the panoramic camera on its mount
   Dispute turn_dispute_, way_dispute_;
-  double turn_doubt_ = 0.0;                // of the verdict on the dispute about turns
   std::optional<std::int64_t> agreed_ns_;  // last panorama that agreed with odometry
   std::optional<Seen> seen_;               // last, against the current reference
   std::optional<Lasting> lasting_;         // while the directions differ

@@ -9,21 +9,26 @@ namespace panvo::localizer {
 /// Which of two contradicting measurements is considered wrong.
 enum class Wrong { kOdometry, kPanoramas };
 
+struct Verdict {
+  Wrong wrong = Wrong::kOdometry;
+  double doubt = 0.0;  ///< probability that it is the other one
+};
+
 /// A difference between the motion by odometry and by panoramas that exceeds the errors of both. Lasts from the first
 /// panorama that shows it to the first that does not; meanwhile one side is constantly wrong, so differences add up
 /// linearly, not squared.
 class Dispute {
  public:
   /// Adds a measurement against the reference panorama `reference_ns`; replaces the previous one with the same
-  /// reference. `wrong`: only the first of a dispute counts.
-  void add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, Wrong wrong);
+  /// reference. `verdict`: only the first of a dispute counts.
+  void add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, const Verdict& verdict);
   /// Odometry and panoramas agree again.
   void end() { *this = Dispute(); }
 
   bool is_on() const noexcept { return stamp_ns_.has_value(); }
   /// Stamp of the last measurement that differed. Precondition: on.
   std::int64_t stamp_ns() const { return *stamp_ns_; }
-  Wrong wrong() const noexcept { return wrong_; }
+  const Verdict& verdict() const noexcept { return verdict_; }
   /// Sum of the differences so far.
   double total() const noexcept { return before_ + last_; }
 
@@ -36,7 +41,7 @@ class Dispute {
   double last_ = 0.0;    // since the reference
   std::int64_t reference_ns_ = 0;
   std::optional<std::int64_t> stamp_ns_;
-  Wrong wrong_ = Wrong::kOdometry;
+  Verdict verdict_;
 };
 
 }  // namespace panvo::localizer
