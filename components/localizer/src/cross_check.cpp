@@ -81,7 +81,7 @@ std::optional<Wrong> CrossCheck::add_turns(const OdometryBuffer& chain, const St
     return std::nullopt;
   }
   turn_dispute_.add(stretch.reference_ns, stretch.to_ns, turns.rad, judge_turn(chain, stretch.to_ns, turns));
-  return turn_dispute_.verdict().wrong;
+  return turn_dispute_.blame().wrong;
 }
 
 /// Odometry that contradicts the panoramas followed something else. Its error is at least its component perpendicular
@@ -90,7 +90,7 @@ std::optional<Wrong> CrossCheck::add_turns(const OdometryBuffer& chain, const St
 std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const Stretch& stretch,
                                                  const AzimuthMeasurement& azimuth, double way_variance_m2) {
   if (turn_dispute_.is_on()) {
-    chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(turn_dispute_.verdict().doubt));
+    chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(turn_dispute_.blame().doubt));
   }
   const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
   if (odometry && azimuth.motion_azimuth_variance_rad2 > 0.0) {
@@ -207,7 +207,7 @@ bool CrossCheck::goes_on_steadily(const OdometryBuffer& chain, std::int64_t to_n
 /// Panoramas see all around, and moving objects cover little of them, so usually odometry is the one that followed
 /// something else [Lu2015 6]. If odometry continues the previous motion, and the panoramas turn implausibly or show that
 /// a mount was turned, their camera was rotated.
-Verdict CrossCheck::judge_turn(const OdometryBuffer& chain, std::int64_t to_ns, const Disagreement& turns) const {
+Blame CrossCheck::judge_turn(const OdometryBuffer& chain, std::int64_t to_ns, const Disagreement& turns) const {
   const auto gone = gone_on(chain, to_ns);
   if (!gone || std::abs(gone->more.turn_rad) >= kSteady * gone->turn_sigma_rad) return {Wrong::kOdometry, kDoubt};
   if (turns.is_of_mount) return {Wrong::kPanoramas, kDoubt * kDoubt};

@@ -5,9 +5,9 @@
 
 namespace panvo::localizer {
 
-void Dispute::add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, const Verdict& verdict) {
+void Dispute::add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, const Blame& blame) {
   if (!is_on()) {
-    verdict_ = verdict;
+    blame_ = blame;
   } else if (reference_ns != reference_ns_) {
     before_ += last_;
   }

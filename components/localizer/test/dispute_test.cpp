@@ -6,7 +6,7 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr Verdict kOdometry{Wrong::kOdometry, 0.0};
+constexpr Blame kOdometry{Wrong::kOdometry, 0.0};
 
 TEST(Dispute, AddsUpWhatDiffersNotItsSquares) {
   Dispute dispute;
@@ -36,18 +36,18 @@ TEST(Dispute, MakesNothingSurerThatGoesBack) {
   EXPECT_EQ(dispute.growth(1.0), 0.0);
 }
 
-TEST(Dispute, KeepsItsVerdictUntilItEnds) {
+TEST(Dispute, BlamesTheSameSideUntilItEnds) {
   Dispute dispute;
   EXPECT_FALSE(dispute.is_on());
   dispute.add(0, 1, 0.5, {Wrong::kPanoramas, 0.25});
   dispute.add(1, 2, 0.5, kOdometry);
   EXPECT_TRUE(dispute.is_on());
-  EXPECT_EQ(dispute.verdict().wrong, Wrong::kPanoramas);
-  EXPECT_EQ(dispute.verdict().doubt, 0.25);
+  EXPECT_EQ(dispute.blame().wrong, Wrong::kPanoramas);
+  EXPECT_EQ(dispute.blame().doubt, 0.25);
   dispute.end();
   EXPECT_FALSE(dispute.is_on());
   dispute.add(5, 6, 0.3, kOdometry);
-  EXPECT_EQ(dispute.verdict().wrong, Wrong::kOdometry);
+  EXPECT_EQ(dispute.blame().wrong, Wrong::kOdometry);
   EXPECT_DOUBLE_EQ(dispute.total(), 0.3) << "restarted";
 }
 

@@ -118,7 +118,7 @@ class CrossCheck {
   std::optional<GoneOn> gone_on(const OdometryBuffer& chain, std::int64_t to_ns) const;
   bool goes_on_steadily(const OdometryBuffer& chain, std::int64_t to_ns) const;
   Seen seen_directions(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
-  Verdict judge_turn(const OdometryBuffer& chain, std::int64_t to_ns, const Disagreement& turns) const;
+  Blame judge_turn(const OdometryBuffer& chain, std::int64_t to_ns, const Disagreement& turns) const;
   DirectionOffset latest_offset() const;
   WayVerdict judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
   void take(const WayVerdict& verdict);
@@ -126,7 +126,7 @@ class CrossCheck {
   std::optional<std::int64_t> settle_break(OdometryBuffer& chain, const Stretch& stretch);
   bool is_disputed() const noexcept { return turn_dispute_.is_on() || way_dispute_.is_on(); }
   bool is_camera_turned() const noexcept {
-    return turn_dispute_.is_on() && turn_dispute_.verdict().wrong == Wrong::kPanoramas;
+    return turn_dispute_.is_on() && turn_dispute_.blame().wrong == Wrong::kPanoramas;
   }
   bool is_fresh(std::int64_t stamp_ns, std::int64_t now_ns) const;
 

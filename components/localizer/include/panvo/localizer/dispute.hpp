@@ -9,7 +9,7 @@ namespace panvo::localizer {
 /// Which of two contradicting measurements is considered wrong.
 enum class Wrong { kOdometry, kPanoramas };
 
-struct Verdict {
+struct Blame {
   Wrong wrong = Wrong::kOdometry;
   double doubt = 0.0;  ///< probability that it is the other one
 };
@@ -20,15 +20,15 @@ struct Verdict {
 class Dispute {
  public:
   /// Adds a measurement against the reference panorama `reference_ns`; replaces the previous one with the same
-  /// reference. `verdict`: only the first of a dispute counts.
-  void add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, const Verdict& verdict);
+  /// reference. `blame`: only the first of a dispute counts.
+  void add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, const Blame& blame);
   /// Odometry and panoramas agree again.
   void end() { *this = Dispute(); }
 
   bool is_on() const noexcept { return stamp_ns_.has_value(); }
   /// Stamp of the last measurement that differed. Precondition: on.
   std::int64_t stamp_ns() const { return *stamp_ns_; }
-  const Verdict& verdict() const noexcept { return verdict_; }
+  const Blame& blame() const noexcept { return blame_; }
   /// Sum of the differences so far.
   double total() const noexcept { return before_ + last_; }
 
@@ -41,7 +41,7 @@ class Dispute {
   double last_ = 0.0;    // since the reference
   std::int64_t reference_ns_ = 0;
   std::optional<std::int64_t> stamp_ns_;
-  Verdict verdict_;
+  Blame blame_;
 };
 
 }  // namespace panvo::localizer
