@@ -200,7 +200,10 @@ TEST(LocalizerDispute, GoesOnWithTheOdometryWhereThePanoramicCameraWasTurned) {
 TEST(LocalizerDispute, KnowsByTheDirectionOfMotionThatAPanoramicCameraWasTurned) {
   Straight vehicle;
   vehicle.drive(4.0);
-  vehicle.turn_camera(4.0 * vision::kDegree);  // as a vehicle may turn, too
+  vehicle.has_panoramas = false;
+  vehicle.drive(1.0);  // in that time a vehicle may turn as far, too
+  vehicle.has_panoramas = true;
+  vehicle.turn_camera(6.0 * vision::kDegree);
   vehicle.drive(0.2);
   EXPECT_EQ(vehicle.last_use, AzimuthUse::kDoubted);
   vehicle.drive(8.0);
