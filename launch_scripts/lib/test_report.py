@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Summarises ctest's JUnit files: reasons of skipped tests, names of failed ones, and on the last line the counts."""
+"""Summarises ctest's JUnit files: why tests were skipped, which ones failed and why, and on the last line the counts."""
 import argparse
 import collections
 import pathlib
@@ -8,6 +8,17 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 GTEST_SKIP = re.compile(r"^.*: Skipped\n(?P<reason>(?:.+\n?)*)", re.MULTILINE)
+
+# GoogleTest, node, unittest, sanitizers; each with the lines after it that say more.
+FAILURE = re.compile(r"^.*(: Failure$|^ *not ok |^(ERROR|FAIL): |Error: |ERROR: \w+Sanitizer|runtime error: |WARNING: ThreadSan)")
+LINES_OF_FAILURE = 6
+
+
+def failure_reason(case):
+    """What a failed test said first of its failure, else last of all."""
+    lines = [line.rstrip() for line in (case.findtext("system-out") or "").splitlines() if line.strip()]
+    first = next((i for i, line in enumerate(lines) if FAILURE.search(line)), -LINES_OF_FAILURE)
+    return lines[first:][:LINES_OF_FAILURE]
 
 
 def skip_reason(case):
@@ -27,13 +38,13 @@ def skip_reason(case):
 
 
 def read(files):
-    """(passed, failed, skipped): names of passed and failed tests, and names of skipped ones by reason."""
-    passed, failed, skipped = [], [], collections.defaultdict(list)
+    """(passed, failed, skipped): names of passed tests, reasons of failed ones by name, and names of skipped ones by reason."""
+    passed, failed, skipped = [], {}, collections.defaultdict(list)
     for file in files:
         for case in ElementTree.parse(file).getroot().iter("testcase"):
             name, status = case.get("name"), case.get("status")
             if status == "fail" or case.find("failure") is not None or case.find("error") is not None:
-                failed.append(name)
+                failed[name] = failure_reason(case)
             elif status == "run":
                 passed.append(name)
             else:  # notrun, disabled
@@ -52,8 +63,10 @@ def report(files, status):
             print(f"    {name}")
         if len(names) > 3:
             print(f"    and {len(names) - 3} more")
-    for name in failed:
+    for name, reason in failed.items():
         print(f"failed: {name}")
+        for line in reason:
+            print(f"    {line[:160]}")
     good = not failed and status == 0 and passed
     if not failed and status != 0:
         print(f"no test failed, but ctest exited with status {status}: see its output above")

@@ -41,6 +41,18 @@ class Report(unittest.TestCase):
         _, lines = self.report(PASSED, SKIPPED)
         self.assertIn("skipped 1: needs recordings: set PANVO_DATA", lines)
 
+    def test_says_what_a_failed_test_said_first_of_its_failure(self):
+        said = "\n".join(["[ RUN      ] A.Fails", "a_test.cpp:9: Failure", "Expected: 1", *["more"] * 20, "[  FAILED  ] A.Fails"])
+        _, lines = self.report(FAILED.replace("<system-out>x", f"<system-out>{said}"), status=8)
+        self.assertEqual(lines[-7:-1], ["    a_test.cpp:9: Failure", "    Expected: 1", *["    more"] * 4])
+        said = "\n".join(["ok 1 - one", "not ok 2 - two", "  ---", "  error: 'a is not b'"])
+        _, lines = self.report(FAILED.replace("<system-out>x", f"<system-out>{said}"), status=8)
+        self.assertEqual([line.strip() for line in lines[-4:-1]], ["not ok 2 - two", "---", "error: 'a is not b'"])
+
+    def test_says_what_a_failed_test_said_last_where_nothing_tells_of_a_failure(self):
+        _, lines = self.report(FAILED.replace("<system-out>x", "<system-out>" + "\n".join("abcdefgh")), status=8)
+        self.assertEqual(lines[-7:-1], [f"    {letter}" for letter in "cdefgh"])
+
     def test_is_content_when_nothing_failed(self):
         self.assertEqual(self.report(PASSED, SKIPPED)[0], 0)
 

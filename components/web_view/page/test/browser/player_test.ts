@@ -2,8 +2,9 @@
 /** The controls of a bag, in a headless Chromium: what they ask of the player, by keys and on a phone. */
 import assert from "node:assert/strict";
 import test, { after, before } from "node:test";
-import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import type { Browser, Page } from "puppeteer-core";
 import type { App } from "../../src/app.ts";
+import { launched } from "./browser.ts";
 import { Server } from "./server.ts";
 
 declare const panvo: App; // in the page
@@ -13,7 +14,7 @@ let browser: Browser;
 
 before(async () => {
   await server.start();
-  browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM!, headless: true, args: ["--no-sandbox"] });
+  browser = await launched();
 });
 
 after(async () => {

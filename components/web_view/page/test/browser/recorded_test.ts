@@ -5,12 +5,13 @@ import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import type { Browser, Page } from "puppeteer-core";
 import type { App } from "../../src/app.ts";
 import type { RecordedDrive } from "../../src/model/recorded_drive.ts";
 import { inScript } from "../../src/ui/snapshot_file.ts";
 import { near } from "../modules/make.ts";
 import { recordedStreet } from "../modules/recorded_street.ts";
+import { launched } from "./browser.ts";
 
 declare const panvo: App; // in the page
 
@@ -19,7 +20,7 @@ let page: Page;
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "page_recorded_"));
 
 before(async () => {
-  browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM!, headless: true, args: ["--no-sandbox"] });
+  browser = await launched();
   page = await browser.newPage();
   await page.setViewport({ width: 1280, height: 800 });
 });
@@ -29,6 +30,9 @@ after(async () => {
   fs.rmSync(folder, { recursive: true });
 });
 
+/** Waits for it: the head of the page follows the cursor a few times a second. */
+const becomes = (selector: string, pattern: RegExp) =>
+  page.waitForFunction((where, what) => new RegExp(what, "i").test(document.querySelector<HTMLElement>(where)!.innerText), { timeout: 20_000, polling: 100 }, selector, pattern.source);
 const textOf = (selector: string) => page.$eval(selector, (element) => (element as HTMLElement).innerText.trim());
 const cursor_s = async () => (await page.evaluate(() => panvo.map.cursor_s))!;
 
@@ -75,8 +79,8 @@ test("the cursor moves along a recorded drive, with its pictures and the head of
   await page.goto(`file://${file}`);
   assert.equal(await textOf("#link-text"), "Recorded drive");
   assert.equal(await page.$eval("#link", (element) => (element as HTMLElement).title), "a street");
-  assert.equal(await textOf("#state-title"), "Position known");
-  assert.match(await textOf("#figures"), /True error\s+0\.00 m/i);
+  await becomes("#state-title", /^Position known$/);
+  await becomes("#figures", /True error\s+0\.00 m/);
   await show(1); // at the end
   const chart = await (await page.$(".chart:not([hidden]) .u-over"))!.boundingBox();
   await page.mouse.move(chart!.x + 0.2 * chart!.width, chart!.y + chart!.height / 2);
@@ -84,16 +88,21 @@ test("the cursor moves along a recorded drive, with its pictures and the head of
   near(await cursor_s(), 2, 0.2);
   await page.mouse.move(2, 2);
   near(await cursor_s(), 2, 0.2); // it stays
-  assert.match(await textOf("#figures"), /True error\s+0\.2\d m/i);
+  await becomes("#figures", /True error\s+0\.2\d m/);
   for (let i = 0; i < 5; ++i) await page.keyboard.press(".");
   await show(1);
   near(await cursor_s(), 7, 0.2);
-  assert.equal(await textOf("#state-title"), "Stereo cameras see too little");
-  assert.match(await textOf("#state-reason"), /a bus/);
-  assert.match(await textOf("#figures"), /True error\s+0\.[67]\d m/i);
+  await becomes("#state-title", /^Stereo cameras see too little$/);
+  await becomes("#state-reason", /a bus/);
+  await becomes("#figures", /True error\s+0\.[67]\d m/);
 });
 
 test("a recorded drive has its report", async () => {
+  // Its keys are listened to once it has loaded.
+  await page.waitForFunction(() => {
+    const report = document.querySelector<HTMLIFrameElement>("#report iframe")!.contentDocument!;
+    return report.querySelector("h1") && report.readyState === "complete";
+  }, { polling: 100 });
   const isShown = () => page.$eval("#report", (dialog) => (dialog as HTMLDialogElement).open);
   await page.click("#report-button");
   const report = await (await page.$("#report iframe"))!.contentFrame();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Measures the page: frames a second with a long drive, and the time from publishing a pose until the page has it. Asserts nothing. */
 import test, { after, before } from "node:test";
-import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import type { Browser, Page } from "puppeteer-core";
 import type { App } from "../../src/app.ts";
+import { launched } from "../browser/browser.ts";
 import { messages, topics } from "../browser/drive_messages.ts";
 import { Publisher } from "../browser/publisher.ts";
 import { Server } from "../browser/server.ts";
@@ -15,7 +16,7 @@ let browser: Browser;
 
 before(async () => {
   await server.start();
-  browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM!, headless: true, args: ["--no-sandbox"] });
+  browser = await launched();
 });
 
 after(async () => {
