@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <set>
 
 #include "../src/objects/mover_models.hpp"
@@ -96,6 +98,20 @@ TEST_F(MoverModelsTest, OwnVehicleLiesBelowThePanoramaAndOutOfTheStereoView) {
     }
     EXPECT_TRUE(is_behind || is_below);
   }
+}
+
+TEST_F(MoverModelsTest, TheBodyOfTheOwnVehicleIsAsHighAsItsModel) {
+  for (const auto& vertex : scene.models[models.own_vehicle].vertices) {
+    constexpr float kRack = 0.25f;
+    const auto [x, y, z] = std::array{vertex.position.x(), vertex.position.y(), vertex.position.z()};
+    if (std::abs(x) > 2.05f || std::abs(y) > 0.85f) continue;  // lamps, plates and mirrors stand out
+    EXPECT_LT(z, own_vehicle_height_m(x, y) + kRack) << vertex.position.transpose();
+  }
+  EXPECT_NEAR(own_vehicle_height_m(-1.0, 0.3), 1.55, 1e-6);
+  EXPECT_NEAR(own_vehicle_height_m(1.0, 0.3), 0.94, 1e-6);   // before the windscreen
+  EXPECT_NEAR(own_vehicle_height_m(1.55, 0.3), 0.84, 1e-6);  // on the bonnet
+  EXPECT_EQ(own_vehicle_height_m(0.0, -1.0), 0.0);
+  EXPECT_EQ(own_vehicle_height_m(2.2, 0.0), 0.0);
 }
 
 }  // namespace

@@ -108,6 +108,7 @@ PanoramicCamera build(const PanoramaSettings& settings) {
   panorama.rate_hz = settings.rate_hz;
   panorama.exposure_s = 1e-3 * settings.exposure_ms;
   panorama.sensor.colour = settings.colour;
+  panorama.sees_vehicle = settings.sees_vehicle;
   if (settings.kind == PanoramaKind::kEquirectangular) {  // excludes the sky and the vehicle's roof
     panorama.sensor.metered_from = 0.38;
     panorama.sensor.metered_to = 0.62;

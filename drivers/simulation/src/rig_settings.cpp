@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "panvo/simulated_world/site.hpp"
+
 namespace panvo::simulation {
 namespace {
 
@@ -144,6 +146,15 @@ void read_panorama(Group& group, PanoramaSettings& panorama) {
   group.number("head_radius_m", panorama.head_radius_m, 0.0, 1.0, "m");
   group.number("exposure_ms", panorama.exposure_ms, 0.0, 200.0, "ms");
   group.flag("colour", panorama.colour);
+  group.flag("sees_vehicle", panorama.sees_vehicle);
+  const Eigen::Vector3d& position_m = panorama.position_m;
+  const double body_m = simulated_world::own_vehicle_height_m(position_m.x(), position_m.y());
+  if (panorama.sees_vehicle && position_m.z() < body_m) {
+    group.reject("position_m",
+                 fmt::format("lies within the vehicle's body, which is {:.2f} m high there; move it, or set "
+                             "panorama.sees_vehicle: false, for a vehicle without a body",
+                             body_m));
+  }
   if (panorama.kind == PanoramaKind::kEquirectangular && panorama.width != 2 * panorama.height) {
     group.reject("size_px", "of an equirectangular panorama must be twice as wide as high");
   }

@@ -33,6 +33,7 @@ struct PanoramaSettings {
   double head_radius_m = 0.04;  ///< of the heads' optical centres around the camera's centre
   double exposure_ms = 3.0;
   bool colour = true;
+  bool sees_vehicle = true;
 };
 
 struct RigSettings {

@@ -178,12 +178,14 @@ cv::Mat Simulation::expose(Camera& camera, double middle_s, double exposure_s, s
 
   std::vector<MovingPlacement> movers;
   if (traffic_) movers = traffic_->at(opened_s, closed_s);
-  MovingPlacement own;
-  own.at_opening.model = campus_.movers.own_vehicle;
-  own.at_opening.world_from_model = world_from_base_opened.cast<float>();
-  own.at_opening.visibility = kToPanorama | simulated_world::kToShadow;
-  own.world_from_model_closed = world_from_base_closed.cast<float>();
-  movers.push_back(own);
+  if (parameters_.rig.panorama.sees_vehicle) {
+    MovingPlacement own;
+    own.at_opening.model = campus_.movers.own_vehicle;
+    own.at_opening.world_from_model = world_from_base_opened.cast<float>();
+    own.at_opening.visibility = kToPanorama | simulated_world::kToShadow;
+    own.world_from_model_closed = world_from_base_closed.cast<float>();
+    movers.push_back(own);
+  }
 
   const simulated_world::Shot shot{world_from_base_opened * camera.base_from_camera,
                                    world_from_base_closed * camera.base_from_camera, visibility};

@@ -34,6 +34,14 @@ class SimulationComponent : public ::testing::Test {
   runtime::ComponentHarness harness_;
 };
 
+/// Of what a panorama of 128x64 pixels shows 60 degrees below the horizon.
+double blue_to_red_below(const sensor_msgs::msg::Image& panorama) {
+  double red = 0.0, blue = 0.0;
+  for (std::size_t i = 128 * 3 * 53; i < 128 * 3 * 54; i += 3)
+    red += panorama.data()[i], blue += panorama.data()[i + 2];
+  return blue / red;
+}
+
 TEST_F(SimulationComponent, PublishesWhatAVehicleWithThisRigWould) {
   const auto& left = harness_.collect(topics::kStereoLeftImageRaw);
   const auto& right = harness_.collect(topics::kStereoRightImageRaw);
@@ -55,6 +63,7 @@ TEST_F(SimulationComponent, PublishesWhatAVehicleWithThisRigWould) {
   EXPECT_EQ(left[0]->encoding(), "mono8");
   EXPECT_EQ(panorama[0]->encoding(), "rgb8");
   EXPECT_EQ(panorama[0]->width(), 128u);
+  EXPECT_GT(blue_to_red_below(*panorama.back()), 1.5);  // the paint of the vehicle's roof
   for (std::size_t i = 0; i < left.size(); ++i) {
     EXPECT_EQ(conversions::stamp_ns(*left[i]), conversions::stamp_ns(*right[i]));
     EXPECT_EQ(conversions::stamp_ns(*left[i]), conversions::stamp_ns(*left_info[i]));
@@ -77,6 +86,13 @@ TEST_F(SimulationComponent, PublishesWhatAVehicleWithThisRigWould) {
                   ->translation()
                   .isApprox(Eigen::Vector3d(1.9, 0.06, 1.3)));
   EXPECT_TRUE(transforms.lookup("base_link", panorama[0]->header().frame_id()));
+}
+
+TEST_F(SimulationComponent, APanoramaShowsTheGroundBelowAVehicleWithoutABody) {
+  const auto& panorama = harness_.collect(topics::kPanorama);
+  harness_.load(kPackage, kPlugin, parameters("{size_px: [128, 64], sees_vehicle: false}"));
+  EXPECT_THAT(harness_.container().run(), IsEmpty());
+  EXPECT_LT(blue_to_red_below(*panorama.back()), 1.4);  // asphalt under a blue sky
 }
 
 TEST_F(SimulationComponent, PublishesEachHeadOfARigOfSeveral) {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mover_models.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
 #include "../shapes.hpp"
 #include "panvo/simulated_world/site.hpp"
 
@@ -146,6 +151,21 @@ CarShape own_vehicle_shape() {
   shape.panes = {{0.06f, 0.28f}, {0.32f, 0.57f}, {0.61f, 0.9f}};
   shape.body = tint_of(0.1f, 0.19f, 0.33f);
   return shape;
+}
+
+double own_vehicle_height_m(double x_m, double y_m) {
+  const CarShape shape = own_vehicle_shape();
+  const std::array<std::pair<double, double>, 6> outline{{{-0.5 * shape.length, shape.tail},
+                                                          {shape.rear_foot, shape.boot},
+                                                          {shape.rear_top, shape.roof},
+                                                          {shape.screen_top, shape.roof},
+                                                          {shape.screen_foot, shape.bonnet},
+                                                          {0.5 * shape.length, shape.nose}}};
+  if (std::abs(y_m) > 0.5 * shape.width || x_m < outline.front().first || x_m > outline.back().first) return 0.0;
+  const auto ahead =
+      std::find_if(outline.begin() + 1, outline.end() - 1, [&](const auto& corner) { return x_m <= corner.first; });
+  const auto [x0, z0] = *(ahead - 1);
+  return std::lerp(z0, ahead->second, (x_m - x0) / (ahead->first - x0));
 }
 
 Mesh build_lorry(const MoverMaterials& materials) {

@@ -42,6 +42,7 @@ struct PanoramicCamera {
   double rate_hz = 5.0;
   double exposure_s = 0.003;
   SensorParameters sensor;
+  bool sees_vehicle = true;  ///< false: there is no body around or below it
 };
 
 /// The cameras on the vehicle (base_link: x forward, y left, z up, on the ground below the vehicle's centre).
