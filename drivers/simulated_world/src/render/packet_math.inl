@@ -102,10 +102,10 @@ PANVO_INLINE Float gather(const float* from, const Word& index) {
   return bits_of(gather((const std::uint32_t*)from, index));
 }
 
-/// Largest whole number not above `value`; |value| < 2^31.
+/// Largest whole number not above `value`; |value| < 2^31. Lanes that hit nothing may hold anything: they wrap around.
 PANVO_INLINE Int floored(const Float& value) {
   const Int whole = truncated(value);
-  return whole + (to_float(whole) > value);  // a true comparison is -1
+  return (Int)((Word)whole + (Word)(to_float(whole) > value));  // a true comparison is -1
 }
 
 /// log2 to 0.01: enough to choose a level of detail.

@@ -34,9 +34,9 @@ PANVO_INLINE Vector3 bilinear(const std::uint32_t* texels, const Word& offset, c
     return offset + ((at >> tile) << (log2_width + tile)) + ((at & inside) << tile);
   };
   const Word left_index = column_part((Word)column & (width - 1));
-  const Word right_index = column_part((Word)(column + 1) & (width - 1));
+  const Word right_index = column_part(((Word)column + 1u) & (width - 1));
   const Word upper = row_part((Word)row & (height - 1));
-  const Word lower = row_part((Word)(row + 1) & (height - 1));
+  const Word lower = row_part(((Word)row + 1u) & (height - 1));
   const Vector3 upper_left = texel(texels, upper + left_index);
   const Vector3 lower_left = texel(texels, lower + left_index);
   const Vector3 up = upper_left + right * (texel(texels, upper + right_index) - upper_left);
