@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ElementTree
 GTEST_SKIP = re.compile(r"^.*: Skipped\n(?P<reason>(?:.+\n?)*)", re.MULTILINE)
 
 # GoogleTest, node, unittest, sanitizers; each with the lines after it that say more.
-FAILURE = re.compile(r"^.*(: Failure$|^ *not ok |^(ERROR|FAIL): |Error: |ERROR: \w+Sanitizer|runtime error: |WARNING: ThreadSan)")
+FAILURE = re.compile(r": Failure$|^ *not ok |^(ERROR|FAIL): |Error: |ERROR: \w+Sanitizer|runtime error: |WARNING: ThreadSan")
 LINES_OF_FAILURE = 6
 
 

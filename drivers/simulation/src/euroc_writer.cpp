@@ -141,7 +141,8 @@ std::uint64_t estimated_bytes(const Simulation& simulation, std::size_t first_in
 EurocWriter::EurocWriter(fs::path directory, const Simulation& simulation, ImageFormat format)
     : directory_(std::move(directory)), simulation_(simulation), format_(format) {
   const auto& parameters = simulation.parameters();
-  const auto& [stereo, panorama] = parameters.rig;
+  const auto& stereo = parameters.rig.stereo;
+  const auto& panorama = parameters.rig.panorama;
   const auto add_camera = [this](bool is_panoramic, int number, std::string description) {
     cameras_.push_back({is_panoramic, directory_ / "mav0" / fmt::format("cam{}", number), std::move(description), {}});
   };

@@ -108,7 +108,6 @@ PanoramicCamera build(const PanoramaSettings& settings) {
   panorama.rate_hz = settings.rate_hz;
   panorama.exposure_s = 1e-3 * settings.exposure_ms;
   panorama.sensor.colour = settings.colour;
-  panorama.sees_vehicle = settings.sees_vehicle;
   if (settings.kind == PanoramaKind::kEquirectangular) {  // excludes the sky and the vehicle's roof
     panorama.sensor.metered_from = 0.38;
     panorama.sensor.metered_to = 0.62;
@@ -137,7 +136,7 @@ Rig paper_rig() { return {build(StereoSettings{}), build(PanoramaSettings{})}; }
 
 Rig read_rig(const std::filesystem::path& file) {
   const auto settings = read_rig_settings(file);
-  return {build(settings.stereo), build(settings.panorama)};
+  return {build(settings.stereo), build(settings.panorama), settings.has_body};
 }
 
 simulated_world::CameraRays rays_of(const PanoramicCamera& camera, const PanoramaHead& head) {

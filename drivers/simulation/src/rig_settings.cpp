@@ -130,7 +130,8 @@ void read_stereo(Group& group, StereoSettings& stereo) {
   group.finish();
 }
 
-void read_panorama(Group& group, PanoramaSettings& panorama) {
+/// `has_body`: of the vehicle.
+void read_panorama(Group& group, PanoramaSettings& panorama, bool has_body) {
   group.choice<PanoramaKind>("kind", panorama.kind,
                              {{"equirectangular", PanoramaKind::kEquirectangular},
                               {"six_head", PanoramaKind::kSixHead},
@@ -140,21 +141,19 @@ void read_panorama(Group& group, PanoramaSettings& panorama) {
   group.number("rate_hz", panorama.rate_hz, 0.1, 1000.0, "Hz");
   group.size("size_px", panorama.width, panorama.height);
   group.numbers("position_m", panorama.position_m, 3, 10.0, "m");
+  const double body_m = simulated_world::own_vehicle_height_m(panorama.position_m.x(), panorama.position_m.y());
+  if (has_body && panorama.position_m.z() < body_m) {
+    group.reject("position_m",
+                 fmt::format("is inside the vehicle's body, which is {:.2f} m high there: move the camera, or "
+                             "simulate a vehicle without a body (vehicle.has_body: false)",
+                             body_m));
+  }
   group.number("yaw_deg", panorama.yaw_deg, -180.0, 180.0, "degrees");
   group.number("pitch_deg", panorama.pitch_deg, -90.0, 90.0, "degrees");
   group.number("roll_deg", panorama.roll_deg, -180.0, 180.0, "degrees");
   group.number("head_radius_m", panorama.head_radius_m, 0.0, 1.0, "m");
   group.number("exposure_ms", panorama.exposure_ms, 0.0, 200.0, "ms");
   group.flag("colour", panorama.colour);
-  group.flag("sees_vehicle", panorama.sees_vehicle);
-  const Eigen::Vector3d& position_m = panorama.position_m;
-  const double body_m = simulated_world::own_vehicle_height_m(position_m.x(), position_m.y());
-  if (panorama.sees_vehicle && position_m.z() < body_m) {
-    group.reject("position_m",
-                 fmt::format("lies within the vehicle's body, which is {:.2f} m high there; move it, or set "
-                             "panorama.sees_vehicle: false, for a vehicle without a body",
-                             body_m));
-  }
   if (panorama.kind == PanoramaKind::kEquirectangular && panorama.width != 2 * panorama.height) {
     group.reject("size_px", "of an equirectangular panorama must be twice as wide as high");
   }
@@ -176,16 +175,19 @@ RigSettings read_rig_settings(const std::filesystem::path& file) {
   std::string problems;
   for (const auto& entry : root) {
     const auto key = entry.first.as<std::string>();
-    if (key != "stereo" && key != "panorama") {
-      problems += fmt::format("{}:{}: {} is not known here; known keys: stereo, panorama\n", file.string(),
+    if (key != "stereo" && key != "panorama" && key != "vehicle") {
+      problems += fmt::format("{}:{}: {} is not known here; known keys: stereo, panorama, vehicle\n", file.string(),
                               entry.first.Mark().line + 1, key);
     }
   }
   RigSettings settings;
   Group stereo(file.string(), "stereo", root["stereo"], problems);
   read_stereo(stereo, settings.stereo);
+  Group vehicle(file.string(), "vehicle", root["vehicle"], problems);
+  vehicle.flag("has_body", settings.has_body);
+  vehicle.finish();
   Group panorama(file.string(), "panorama", root["panorama"], problems);
-  read_panorama(panorama, settings.panorama);
+  read_panorama(panorama, settings.panorama, settings.has_body);
   if (!problems.empty()) {
     problems.pop_back();
     throw std::runtime_error(problems);

@@ -33,12 +33,12 @@ struct PanoramaSettings {
   double head_radius_m = 0.04;  ///< of the heads' optical centres around the camera's centre
   double exposure_ms = 3.0;
   bool colour = true;
-  bool sees_vehicle = true;
 };
 
 struct RigSettings {
   StereoSettings stereo;
   PanoramaSettings panorama;
+  bool has_body = true;
 };
 
 /// Throws std::runtime_error as read_rig() does.

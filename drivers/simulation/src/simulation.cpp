@@ -178,7 +178,7 @@ cv::Mat Simulation::expose(Camera& camera, double middle_s, double exposure_s, s
 
   std::vector<MovingPlacement> movers;
   if (traffic_) movers = traffic_->at(opened_s, closed_s);
-  if (parameters_.rig.panorama.sees_vehicle) {
+  if (parameters_.rig.has_body) {
     MovingPlacement own;
     own.at_opening.model = campus_.movers.own_vehicle;
     own.at_opening.world_from_model = world_from_base_opened.cast<float>();

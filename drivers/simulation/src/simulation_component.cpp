@@ -237,7 +237,8 @@ void SimulationComponent::publish_static_transforms(std::int64_t stamp_ns) {
   const auto place = [&](const std::string& frame_id, const Eigen::Isometry3d& base_from_camera) {
     message.transforms().push_back(conversions::to_static_transform(stamp_ns, "base_link", frame_id, base_from_camera));
   };
-  const auto& [stereo, panorama] = simulation_->parameters().rig;
+  const auto& stereo = simulation_->parameters().rig.stereo;
+  const auto& panorama = simulation_->parameters().rig.panorama;
   if (!eyes_.empty()) {
     place(eyes_[0].frame_id, stereo.base_from_left);
     place(eyes_[1].frame_id, stereo.base_from_right());

@@ -106,11 +106,12 @@ TEST_F(RigFile, EveryProblemIsToldWithItsLineAndKey) {
 }
 
 TEST_F(RigFile, APanoramaWithinTheVehicleIsRefusedUnlessThereIsNone) {
-  EXPECT_THAT(refusal("panorama:\n  position_m: [0.1, 0.2, 1.3]\n"),
-              AllOf(HasSubstr(":2: panorama.position_m"), HasSubstr("1.55 m high there"), HasSubstr("sees_vehicle")));
+  EXPECT_THAT(
+      refusal("panorama:\n  position_m: [0.1, 0.2, 1.3]\n"),
+      AllOf(HasSubstr(":2: panorama.position_m"), HasSubstr("1.55 m high there"), HasSubstr("vehicle.has_body")));
   EXPECT_EQ(refusal("panorama: {position_m: [1.6, 0.2, 1.3]}\n"), "taken");  // over the bonnet
   EXPECT_EQ(refusal("panorama: {position_m: [0.1, 0.9, 1.3]}\n"), "taken");  // beside it
-  EXPECT_EQ(refusal("panorama: {position_m: [0.1, 0.2, 0.5], sees_vehicle: false}\n"), "taken");
+  EXPECT_EQ(refusal("panorama: {position_m: [0.1, 0.2, 0.5]}\nvehicle: {has_body: false}\n"), "taken");
 }
 
 TEST_F(RigFile, AFileThatIsNotThereOrNoYamlIsNamed) {

@@ -90,7 +90,7 @@ TEST_F(SimulationComponent, PublishesWhatAVehicleWithThisRigWould) {
 
 TEST_F(SimulationComponent, APanoramaShowsTheGroundBelowAVehicleWithoutABody) {
   const auto& panorama = harness_.collect(topics::kPanorama);
-  harness_.load(kPackage, kPlugin, parameters("{size_px: [128, 64], sees_vehicle: false}"));
+  harness_.load(kPackage, kPlugin, parameters("{size_px: [128, 64]}\nvehicle: {has_body: false}"));
   EXPECT_THAT(harness_.container().run(), IsEmpty());
   EXPECT_LT(blue_to_red_below(*panorama.back()), 1.4);  // asphalt under a blue sky
 }

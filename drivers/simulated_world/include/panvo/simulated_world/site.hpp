@@ -81,7 +81,7 @@ struct MoverModels {
   std::vector<std::uint32_t> cars, vans, people;
   std::uint32_t own_vehicle = 0;  ///< carries the rig; base_link at its origin, on the ground below its centre
 };
-/// Height of the own vehicle's body above a point of base_link, m; 0 beside it.
+/// Height of the top of the own vehicle's body, m, at a point in base_link; 0 outside the body.
 double own_vehicle_height_m(double x_m, double y_m);
 MoverModels build_mover_models(const Palette& palette, std::uint64_t seed, Scene& scene);
 

@@ -42,13 +42,13 @@ struct PanoramicCamera {
   double rate_hz = 5.0;
   double exposure_s = 0.003;
   SensorParameters sensor;
-  bool sees_vehicle = true;  ///< false: there is no body around or below it
 };
 
 /// The cameras on the vehicle (base_link: x forward, y left, z up, on the ground below the vehicle's centre).
 struct Rig {
   StereoCamera stereo;
   PanoramicCamera panorama;
+  bool has_body = true;  ///< whether the vehicle's body is in the panoramas and casts a shadow
 };
 
 /// The rig of [Lu2015, section 7]: a stereo camera of 640 x 480 px at 25 Hz with a baseline of 0.12 m, directed forward
