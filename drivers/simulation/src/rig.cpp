@@ -132,11 +132,11 @@ PanoramicCamera build(const PanoramaSettings& settings) {
 
 }  // namespace
 
-Rig paper_rig() { return {build(StereoSettings{}), build(PanoramaSettings{})}; }
+Rig paper_rig() { return {build(StereoSettings{}), build(PanoramaSettings{}), Vehicle{}}; }
 
 Rig read_rig(const std::filesystem::path& file) {
   const auto settings = read_rig_settings(file);
-  return {build(settings.stereo), build(settings.panorama), settings.has_body};
+  return {build(settings.stereo), build(settings.panorama), settings.vehicle};
 }
 
 simulated_world::CameraRays rays_of(const PanoramicCamera& camera, const PanoramaHead& head) {

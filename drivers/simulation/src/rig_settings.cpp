@@ -184,10 +184,11 @@ RigSettings read_rig_settings(const std::filesystem::path& file) {
   Group stereo(file.string(), "stereo", root["stereo"], problems);
   read_stereo(stereo, settings.stereo);
   Group vehicle(file.string(), "vehicle", root["vehicle"], problems);
-  vehicle.flag("has_body", settings.has_body);
+  vehicle.flag("has_body", settings.vehicle.has_body);
+  vehicle.number("speed_m_per_s", settings.vehicle.speed_m_per_s, 0.1, 30.0, "m/s");
   vehicle.finish();
   Group panorama(file.string(), "panorama", root["panorama"], problems);
-  read_panorama(panorama, settings.panorama, settings.has_body);
+  read_panorama(panorama, settings.panorama, settings.vehicle.has_body);
   if (!problems.empty()) {
     problems.pop_back();
     throw std::runtime_error(problems);

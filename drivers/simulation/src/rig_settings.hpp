@@ -38,7 +38,7 @@ struct PanoramaSettings {
 struct RigSettings {
   StereoSettings stereo;
   PanoramaSettings panorama;
-  bool has_body = true;
+  Vehicle vehicle;
 };
 
 /// Throws std::runtime_error as read_rig() does.

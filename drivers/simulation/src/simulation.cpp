@@ -56,6 +56,13 @@ vision::StereoCalibration aged(const vision::StereoCalibration& published, doubl
   return actual;
 }
 
+MotionParameters at_speed(MotionParameters motion, double speed_m_per_s) {
+  constexpr double kShareInTurns = 0.6;
+  motion.cruise_speed_m_per_s = speed_m_per_s;
+  motion.min_speed_m_per_s = std::min(motion.min_speed_m_per_s, kShareInTurns * speed_m_per_s);
+  return motion;
+}
+
 /// A camera that has got used to the dark: it amplifies its signal, so that a white pixel has fewer electrons.
 SensorParameters at_night(SensorParameters sensor) {
   constexpr double kAmplification = 12.0, kGain = 25.0;
@@ -96,7 +103,8 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
   check_parameters(parameters_);
   const std::uint64_t own = day.seed.value_or(seed);
   const auto path = drive(simulated_world::campus_roads(seed), route, day.left_m);
-  motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness), motion, own);
+  motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness),
+                                            at_speed(motion, rig.vehicle.speed_m_per_s), own);
   weather_ = std::make_unique<Weather>(day, motion_->duration_s(), effects, own);
   plan_instants();
 
@@ -178,7 +186,7 @@ cv::Mat Simulation::expose(Camera& camera, double middle_s, double exposure_s, s
 
   std::vector<MovingPlacement> movers;
   if (traffic_) movers = traffic_->at(opened_s, closed_s);
-  if (parameters_.rig.has_body) {
+  if (parameters_.rig.vehicle.has_body) {
     MovingPlacement own;
     own.at_opening.model = campus_.movers.own_vehicle;
     own.at_opening.world_from_model = world_from_base_opened.cast<float>();

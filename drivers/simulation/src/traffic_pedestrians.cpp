@@ -33,7 +33,8 @@ std::optional<Mover> TrafficPlanner::road_crosser(double t_s, Random random) con
   const double gap = 0.5 * kOwnLength_m + random.uniform(6.0, 10.0);
   const double at_m = motion_.travelled_m(t_s) + gap;
   const DrivenPath& path = motion_.path();
-  if (motion_.speed_m_per_s(t_s) < 2.0 || at_m + 5.0 > path.along_m.back()) return std::nullopt;
+  if (motion_.speed_m_per_s(t_s) < 0.4 * motion_.cruise_speed_m_per_s() || at_m + 5.0 > path.along_m.back())
+    return std::nullopt;
   const auto i = static_cast<std::size_t>(std::lower_bound(path.along_m.begin(), path.along_m.end() - 1, at_m) -
                                           path.along_m.begin());
   const RoadNetwork::Nearest nearest = site_.roads.nearest_road(path.points[i]);

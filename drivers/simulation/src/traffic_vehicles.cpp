@@ -83,8 +83,9 @@ std::optional<Mover> TrafficPlanner::ahead(double near_middle_s, Random random) 
   mover.near_to_s = near_middle_s + 0.5 * stays;
   mover.far_m = random.uniform(46.0, 55.0);
   // the gap must not close faster than our speed in turns, or the mover would drive backwards
-  mover.from_s = mover.near_from_s - (mover.far_m - mover.near_m) / 1.9;
-  mover.to_s = mover.near_to_s + (mover.far_m - mover.near_m) / 3.2;
+  const double speed = std::min(motion_.cruise_speed_m_per_s(), 5.0);
+  mover.from_s = mover.near_from_s - (mover.far_m - mover.near_m) / (0.38 * speed);
+  mover.to_s = mover.near_to_s + (mover.far_m - mover.near_m) / (0.64 * speed);
 
   // our own path, extended along the road on which it ends
   const DrivenPath& path = motion_.path();

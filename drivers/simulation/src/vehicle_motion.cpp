@@ -151,6 +151,8 @@ void VehicleMotion::plan_speed(const MotionParameters& parameters) {
 
 double VehicleMotion::duration_s() const { return duration_s_; }
 
+double VehicleMotion::cruise_speed_m_per_s() const { return cruise_speed_m_per_s_; }
+
 const DrivenPath& VehicleMotion::path() const { return path_; }
 
 double VehicleMotion::travelled_m(double t_s) const { return spline(arc_m_, t_s / kTimeStep_s).value; }

@@ -114,6 +114,12 @@ TEST_F(RigFile, APanoramaWithinTheVehicleIsRefusedUnlessThereIsNone) {
   EXPECT_EQ(refusal("panorama: {position_m: [0.1, 0.2, 0.5]}\nvehicle: {has_body: false}\n"), "taken");
 }
 
+TEST_F(RigFile, GivesTheVehiclesSpeed) {
+  EXPECT_EQ(read_rig(write("vehicle: {speed_m_per_s: 0.8}\n")).vehicle.speed_m_per_s, 0.8);
+  EXPECT_THAT(refusal("vehicle:\n  speed_m_per_s: 0\n"),
+              AllOf(HasSubstr(":2: vehicle.speed_m_per_s"), HasSubstr("0.1 to 30 m/s")));
+}
+
 TEST_F(RigFile, AFileThatIsNotThereOrNoYamlIsNamed) {
   EXPECT_THAT(refusal("stereo: [\n"), HasSubstr("is not YAML"));
   EXPECT_THROW(read_rig("/nowhere/rig.yaml"), std::runtime_error);

@@ -88,11 +88,14 @@ TEST_F(SimulationComponent, PublishesWhatAVehicleWithThisRigWould) {
   EXPECT_TRUE(transforms.lookup("base_link", panorama[0]->header().frame_id()));
 }
 
-TEST_F(SimulationComponent, APanoramaShowsTheGroundBelowAVehicleWithoutABody) {
+TEST_F(SimulationComponent, TheVehicleIsThatOfItsRig) {
   const auto& panorama = harness_.collect(topics::kPanorama);
-  harness_.load(kPackage, kPlugin, parameters("{size_px: [128, 64]}\nvehicle: {has_body: false}"));
+  const auto& truth = harness_.collect(topics::kGroundTruth);
+  harness_.load(kPackage, kPlugin, parameters("{size_px: [128, 64]}\nvehicle: {has_body: false, speed_m_per_s: 0.6}"));
   EXPECT_THAT(harness_.container().run(), IsEmpty());
   EXPECT_LT(blue_to_red_below(*panorama.back()), 1.4);  // asphalt under a blue sky
+  ASSERT_THAT(truth, SizeIs(11));
+  EXPECT_NEAR(truth[5]->twist().twist().linear().x(), 0.6, 0.02);  // on the straight road before the loop
 }
 
 TEST_F(SimulationComponent, PublishesEachHeadOfARigOfSeveral) {

@@ -44,11 +44,16 @@ struct PanoramicCamera {
   SensorParameters sensor;
 };
 
+struct Vehicle {
+  bool has_body = true;        ///< whether its body is in the panoramas and casts a shadow
+  double speed_m_per_s = 5.0;  ///< on straight roads
+};
+
 /// The cameras on the vehicle (base_link: x forward, y left, z up, on the ground below the vehicle's centre).
 struct Rig {
   StereoCamera stereo;
   PanoramicCamera panorama;
-  bool has_body = true;  ///< whether the vehicle's body is in the panoramas and casts a shadow
+  Vehicle vehicle;
 };
 
 /// The rig of [Lu2015, section 7]: a stereo camera of 640 x 480 px at 25 Hz with a baseline of 0.12 m, directed forward

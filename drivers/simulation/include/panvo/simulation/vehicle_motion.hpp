@@ -37,6 +37,7 @@ class VehicleMotion {
   vision::Vector6d twist(double t_s) const;
   double travelled_m(double t_s) const;  ///< along the path
   double speed_m_per_s(double t_s) const;
+  double cruise_speed_m_per_s() const;
   const DrivenPath& path() const;
 
  private:
