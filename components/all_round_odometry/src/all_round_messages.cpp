@@ -40,13 +40,14 @@ nav_msgs::msg::Odometry to_odometry(const AllRoundPose& pose, const nav_msgs::ms
   return odometry;
 }
 
-panvo_msgs::msg::OdometryQuality to_quality(const AllRoundPose& pose, double outlier_share,
+panvo_msgs::msg::OdometryQuality to_quality(const AllRoundPose& pose, const conversions::OdometryJoin::Quality& of_stereo,
                                             const std::string& base_frame) {
   panvo_msgs::msg::OdometryQuality quality;
   quality.header().stamp(conversions::to_stamp(pose.stamp_ns));
   quality.header().frame_id(base_frame);
   quality.reliable(pose.is_reliable);
-  quality.inlier_ratio(pose.agreeing_share.value_or(1.0 - outlier_share));
+  quality.inlier_ratio(pose.agreeing_share.value_or(1.0 - of_stereo.outlier_share));
+  quality.lean_sigma_rad_per_m(of_stereo.lean_sigma_rad_per_m);
   if (!pose.is_reliable) quality.reason("neither the stereo camera nor panoramas measure the motion");
   return quality;
 }

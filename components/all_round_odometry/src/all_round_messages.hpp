@@ -5,6 +5,7 @@
 
 #include "nav_msgs/msg/Odometry.h"
 #include "panvo/all_round_odometry/all_round_odometry.hpp"
+#include "panvo/conversions/odometry_join.hpp"
 #include "panvo/conversions/result.hpp"
 #include "panvo_msgs/msg/OdometryQuality.h"
 #include "panvo_msgs/msg/PanoramaPoints.h"
@@ -19,8 +20,7 @@ conversions::Result<PanoramaPoints> to_points(const panvo_msgs::msg::PanoramaPoi
 nav_msgs::msg::Odometry to_odometry(const AllRoundPose& pose, const nav_msgs::msg::Odometry& like,
                                     const vision::Vector6d& twist);
 
-/// `outlier_share`: of the stereo odometry.
-panvo_msgs::msg::OdometryQuality to_quality(const AllRoundPose& pose, double outlier_share,
+panvo_msgs::msg::OdometryQuality to_quality(const AllRoundPose& pose, const conversions::OdometryJoin::Quality& of_stereo,
                                             const std::string& base_frame);
 
 }  // namespace panvo::all_round_odometry

@@ -42,7 +42,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
     const auto pose = conversions::to_isometry(joined.odometry->pose().pose());
     if (!pose) return refuse(context_.resolved_name(topics::kOdometryBinocular), pose.reason());
     const StereoPose stereo{conversions::stamp_ns(*joined.odometry), *pose,
-                            conversions::to_matrix(joined.odometry->pose().covariance()), joined.is_reliable};
+                            conversions::to_matrix(joined.odometry->pose().covariance()), joined.quality.is_reliable};
     if (stereo_.size() >= kMaxWaiting) stereo_.erase(stereo_.begin());
     stereo_[stereo.stamp_ns] = joined;
     if (last_) {
@@ -102,8 +102,8 @@ class AllRoundOdometryComponent final : public runtime::Component {
       }
       const auto stereo = stereo_.find(pose->stamp_ns);
       const bool is_stereo = !pose->agreeing_share && stereo != stereo_.end();
-      const double outlier_share = is_stereo ? stereo->second.outlier_share : 1.0;
-      quality_output_.publish(to_quality(*pose, outlier_share, last_->child_frame_id()));
+      const auto quality = is_stereo ? stereo->second.quality : conversions::OdometryJoin::Quality{};
+      quality_output_.publish(to_quality(*pose, quality, last_->child_frame_id()));
       odometry_output_.publish(to_odometry(*pose, is_stereo ? *stereo->second.odometry : *last_, twist));
       tell(*pose);
       before_ = *pose;

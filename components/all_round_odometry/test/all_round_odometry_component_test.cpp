@@ -31,6 +31,7 @@ class AllRoundOdometryComponentTest : public ::testing::Test {
     quality.header().stamp(stamp);
     quality.reliable(is_reliable);
     quality.inlier_ratio(0.7);
+    quality.lean_sigma_rad_per_m(5e-4);
     harness_.publish(topics::kOdometryQuality, quality);
     if (is_reliable) last_ = Park::vehicle(panorama);
     nav_msgs::msg::Odometry odometry;
@@ -101,6 +102,7 @@ TEST_F(AllRoundOdometryComponentTest, PassesReliableStereoOdometryOn) {
   EXPECT_EQ(odometry_.back()->header().stamp(), quality_.back()->header().stamp());
   EXPECT_TRUE(quality_.back()->reliable());
   EXPECT_NEAR(quality_.back()->inlier_ratio(), 0.7, 1e-12);
+  EXPECT_EQ(quality_.back()->lean_sigma_rad_per_m(), 5e-4);
 }
 
 TEST_F(AllRoundOdometryComponentTest, ContinuesByPanoramasAndSaysSo) {

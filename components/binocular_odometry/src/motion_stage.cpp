@@ -41,6 +41,7 @@ class MotionStage::Implementation {
       : stereo_(stereo),
         parameters_(parameters),
         observer_(observer),
+        lean_sigma_rad_per_m_(parameters.rectification_error_px / (stereo.camera.fx * stereo.baseline_m)),
         adjuster_(stereo, parameters),
         unseen_(parameters.acceleration, parameters.angular_acceleration) {}
 
@@ -50,6 +51,7 @@ class MotionStage::Implementation {
     result.quality.detected = frame.detected;
     result.quality.tracked = frame.tracked;
     result.quality.matched = frame.matched;
+    result.quality.lean_sigma_rad_per_m = lean_sigma_rad_per_m_;
     const std::int64_t since_last_ns = interval(frame.stamp_ns, last_stamp_ns_);
     const std::int64_t since_good_ns = interval(frame.stamp_ns, good_stamp_ns_);
     last_stamp_ns_ = frame.stamp_ns;
@@ -239,7 +241,7 @@ class MotionStage::Implementation {
     vision::Vector6d sigma;
     sigma << Eigen::Vector3d::Constant(parameters_.motion_error_ratio * distance),
         Eigen::Vector3d::Constant(parameters_.motion_error_ratio * angle +
-                                  parameters_.rotation_error_rad_per_m * distance);
+                                  std::max(parameters_.rotation_error_rad_per_m, lean_sigma_rad_per_m_) * distance);
     return sigma.cwiseAbs2().asDiagonal();
   }
 
@@ -290,6 +292,7 @@ class MotionStage::Implementation {
   vision::RectifiedStereo stereo_;
   MotionParameters parameters_;
   vision::StageObserver* observer_;
+  double lean_sigma_rad_per_m_;
   TwoStageLocalBundleAdjuster adjuster_;
   MotionModel motion_model_;
   DeadReckoning unseen_;            // since the last measured pose

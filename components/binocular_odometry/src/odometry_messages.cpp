@@ -123,6 +123,7 @@ panvo_msgs::msg::OdometryQuality to_quality(const OdometryEstimate& estimate, co
   quality.inliers(static_cast<std::uint32_t>(estimate.quality.inliers));
   quality.inlier_ratio(estimate.quality.inlier_ratio);
   quality.residual_px(estimate.quality.residual_px);
+  quality.lean_sigma_rad_per_m(estimate.quality.lean_sigma_rad_per_m);
   quality.reliable(estimate.quality.reliable);
   quality.reason(estimate.quality.reason);
   return quality;

@@ -281,6 +281,17 @@ TEST(MotionStage, KnowsThePointsOfTheStaticSceneAndWhereTheyAre) {
   EXPECT_GT(inliers, 60 * 100) << "most of the 65 points, in most of the 120 frames";
 }
 
+TEST(MotionStage, StatesALargerLeanForASmallerRig) {
+  const auto stated = [](double focal_length_px, double baseline_m) {
+    vision::RectifiedStereo stereo = kStereo;
+    stereo.camera.fx = stereo.camera.fy = focal_length_px;
+    stereo.baseline_m = baseline_m;
+    return MotionStage(stereo, {}).estimate(TrackedFrame{}).quality.lean_sigma_rad_per_m;
+  };
+  EXPECT_NEAR(stated(400.0, 0.12), 0.01 / 48.0, 1e-12);
+  EXPECT_NEAR(stated(250.0, 0.06), 0.01 / 15.0, 1e-12);
+}
+
 TEST(MotionStage, HasNoPointsWithoutAMotion) {
   DriveBehindACar drive;
   MotionStage stage(kStereo, {}, nullptr);

@@ -22,7 +22,8 @@ void OdometryJoin::add(const panvo_msgs::msg::OdometryQuality& quality) {
   has_quality_ = true;
   lacking_ = 0;
   const double ratio = quality.inlier_ratio();
-  qualities_[stamp_ns(quality)] = {quality.reliable(), std::isfinite(ratio) ? std::clamp(1.0 - ratio, 0.0, 1.0) : 1.0};
+  qualities_[stamp_ns(quality)] = {quality.reliable(), std::isfinite(ratio) ? std::clamp(1.0 - ratio, 0.0, 1.0) : 1.0,
+                                   quality.lean_sigma_rad_per_m()};
   if (qualities_.size() > kMaxQualities) qualities_.erase(qualities_.begin());
 }
 
@@ -33,10 +34,9 @@ void OdometryJoin::add(std::shared_ptr<const nav_msgs::msg::Odometry> odometry, 
 std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool is_quality_published) {
   if (waiting_.empty()) return std::nullopt;
   const std::int64_t wanted_ns = stamp_ns(*waiting_.front().odometry);
-  Joined joined{.odometry = waiting_.front().odometry};
+  Joined joined{.odometry = waiting_.front().odometry, .quality = {}};
   if (const auto own = qualities_.find(wanted_ns); own != qualities_.end()) {
-    joined.is_reliable = own->second.is_reliable;
-    joined.outlier_share = own->second.outlier_share;
+    joined.quality = own->second;
     qualities_.erase(qualities_.begin(), std::next(own));
   } else if (is_quality_published && lacking_ < kMaxMissing) {
     // Topics keep their order: a later quality means that this one was lost.

@@ -38,7 +38,7 @@ struct Join {
   void take(std::int64_t now_ns, bool is_told) {
     while (const auto next = join.next(now_ns, is_told)) {
       const auto frame = conversions::stamp_ns(*next->odometry) / kFrame_ns;
-      out.push_back(std::to_string(frame) + (next->lacks_quality ? "?" : next->is_reliable ? "+" : "-"));
+      out.push_back(std::to_string(frame) + (next->lacks_quality ? "?" : next->quality.is_reliable ? "+" : "-"));
     }
   }
 };

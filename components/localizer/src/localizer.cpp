@@ -69,6 +69,7 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
       chain_.empty() ? vision::Matrix6d(vision::Matrix6d::Zero())
                      : dead_reckoning_.step(vision::seconds(chain_.latest().pose.stamp_ns, odometry.stamp_ns),
                                             odometry.is_reliable);
+  if (odometry.lean_sigma_rad_per_m > 0.0) turn_error_.expect_lean(odometry.lean_sigma_rad_per_m);
   const Eigen::Isometry3d step = last_raw_.inverse() * odometry.odom_from_base;
   const double turn_error_rad = turn_error_.error_rad(yaw_of(step.linear()), step.translation().norm());
   chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt), turn_error_rad, least);

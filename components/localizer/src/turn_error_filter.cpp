@@ -9,26 +9,34 @@ namespace {
 
 constexpr double kMinTurn_rad = 0.02, kMinWay_m = 0.5;  // below both, other errors exceed their effect
 constexpr double kMinScaleVariance = 1e-6;              // the compass misses as much of a turn
-constexpr double kMinLeanVariance = 1e-5 * 1e-5;        // and errs by as much per metre
+constexpr double kLeanWalk = 0.05;                      // per sqrt(m), share of the prior: other points are in view
 constexpr double kTurnOutlier = 4.0 * 4.0;              // squared standard deviations
 
 }  // namespace
 
 TurnErrorFilter::TurnErrorFilter(double scale_sigma, double lean_sigma_rad_m)
-    : covariance_(Eigen::Vector2d(scale_sigma * scale_sigma, lean_sigma_rad_m * lean_sigma_rad_m).asDiagonal()) {}
+    : lean_sigma_rad_m_(lean_sigma_rad_m),
+      covariance_(Eigen::Vector2d(scale_sigma * scale_sigma, lean_sigma_rad_m * lean_sigma_rad_m).asDiagonal()) {}
+
+void TurnErrorFilter::expect_lean(double sigma_rad_m) {
+  if (has_learned_) return;
+  lean_sigma_rad_m_ = sigma_rad_m;
+  covariance_(1, 1) = sigma_rad_m * sigma_rad_m;
+}
 
 void TurnErrorFilter::add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2) {
   if (std::abs(turn_rad) < kMinTurn_rad && way_m < kMinWay_m) return;
+  has_learned_ = true;
+  covariance_(1, 1) += std::pow(kLeanWalk * lean_sigma_rad_m_, 2) * way_m;
   const Eigen::Vector2d slope(-turn_rad, -way_m);  // odometry that turns more disagrees in the opposite direction
   const double spread = slope.dot(covariance_ * slope) + variance_rad2;
   if (!(spread > 0.0) || disagreement_rad * disagreement_rad > kTurnOutlier * spread) return;
   const Eigen::Vector2d gain = covariance_ * slope / spread;
-  const Eigen::Vector2d least(std::min(kMinScaleVariance, covariance_(0, 0)),
-                              std::min(kMinLeanVariance, covariance_(1, 1)));
+  const double least = std::min(kMinScaleVariance, covariance_(0, 0));
   state_ += gain * disagreement_rad;
   covariance_ -= gain * spread * gain.transpose();
   // Raising a variance leaves the matrix positive semidefinite.
-  covariance_.diagonal() = covariance_.diagonal().cwiseMax(least).eval();
+  covariance_(0, 0) = std::max(covariance_(0, 0), least);
 }
 
 }  // namespace panvo::localizer

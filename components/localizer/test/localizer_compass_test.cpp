@@ -165,7 +165,9 @@ TEST(LocalizerWithCompass, LearnsByWhatShareOdometryTurnsTooMuch) {
 /// A straight drive with odometry that leans to the left, and a compass that does not. Several panoramas are compared
 /// with each reference.
 struct Leaning {
-  Leaning(const Parameters& parameters, double lean_rad_m) : localizer(parameters), lean_rad_m_(lean_rad_m) {
+  Leaning(const Parameters& parameters, double lean_rad_m, double stated_sigma_rad_m = 0.0)
+      : localizer(parameters), lean_rad_m_(lean_rad_m) {
+    odometry_.lean_sigma_rad_per_m = stated_sigma_rad_m;
     localizer.add(odometry_);
   }
 
@@ -208,7 +210,7 @@ TEST(LocalizerWithCompass, TakesALastingLeanOfTheOdometryAwayOnce) {
 TEST(LocalizerWithCompass, LearnsWhatOdometryTurnsTooMuchPerMetre) {
   Parameters one_clock = of_known_scale();
   one_clock.clock_sigma_s = 0.0;
-  constexpr double kLeanPerMetre_rad = 7e-5;  // one standard deviation
+  constexpr double kLeanPerMetre_rad = 2e-4;  // one standard deviation
   Leaning leaning(one_clock, kLeanPerMetre_rad);
   leaning.drive(400, true);
   const double before_rad = yaw_of(leaning.localizer.latest().map_from_base.linear());
@@ -218,6 +220,21 @@ TEST(LocalizerWithCompass, LearnsWhatOdometryTurnsTooMuchPerMetre) {
             0.4 * 100 * kLeanPerMetre_rad);
   EXPECT_LT(std::abs(yaw_of(leaning.localizer.latest().odom_from_base.linear()) - published_rad),
             0.4 * 100 * kLeanPerMetre_rad);
+}
+
+TEST(LocalizerWithCompass, BelievesThatOdometryLeansAsMuchAsItStates) {
+  Parameters one_clock = of_known_scale();
+  one_clock.clock_sigma_s = 0.0;
+  constexpr double kLeanPerMetre_rad = 5e-4, kSmallRig_rad_m = 7e-4, kLargeRig_rad_m = 4e-5;
+  const auto turned_without_compass = [&](double stated_sigma_rad_m) {
+    Leaning leaning(one_clock, kLeanPerMetre_rad, stated_sigma_rad_m);
+    leaning.drive(20, true);
+    const double before_rad = yaw_of(leaning.localizer.latest().map_from_base.linear());
+    leaning.drive(100, false);
+    return yaw_of(leaning.localizer.latest().map_from_base.linear()) - before_rad;
+  };
+  EXPECT_LT(std::abs(turned_without_compass(kSmallRig_rad_m)), 0.15 * 100 * kLeanPerMetre_rad);
+  EXPECT_GT(turned_without_compass(kLargeRig_rad_m), 0.5 * 100 * kLeanPerMetre_rad);
 }
 
 TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {

@@ -41,7 +41,30 @@ TEST(TurnErrorFilter, IsNeverSurerThanTheCompassSees) {
   TurnErrorFilter filter(0.003, 1e-3);
   for (int i = 0; i < 10'000; ++i) filter.add(0.0, i % 2 == 0 ? 0.3 : -0.3, 5.0, 1e-6);
   EXPECT_NEAR(std::sqrt(filter.covariance()(0, 0)), 0.001, 1e-6);
-  EXPECT_NEAR(std::sqrt(filter.covariance()(1, 1)), 1e-5, 1e-8);
+}
+
+TEST(TurnErrorFilter, FollowsALeanThatChanges) {
+  TurnErrorFilter filter(0.003, 5e-4);
+  const auto drive = [&](double lean_rad_m) {
+    for (int i = 0; i < 60; ++i) {
+      constexpr double kWay_m = 4.0;
+      filter.add(filter.error_rad(0.0, kWay_m) - lean_rad_m * kWay_m, 0.0, kWay_m, 1e-6);
+    }
+    return filter.lean_rad_m();
+  };
+  EXPECT_NEAR(drive(5e-4), 5e-4, 0.5e-4);
+  EXPECT_NEAR(drive(2e-4), 2e-4, 0.5e-4);  // after as long a way, although the mean of both is 3.5e-4
+}
+
+TEST(TurnErrorFilter, ExpectsTheLeanThatIsStatedBeforeTheFirstMeasurement) {
+  TurnErrorFilter filter(0.003, 1e-4);
+  filter.expect_lean(8e-4);
+  EXPECT_NEAR(std::sqrt(filter.covariance()(1, 1)), 8e-4, 1e-9);
+  filter.add(0.001, 0.0, 4.0, 1e-6);
+  const double learned = std::sqrt(filter.covariance()(1, 1));
+  EXPECT_LT(learned, 4e-4);
+  filter.expect_lean(8e-4);
+  EXPECT_EQ(std::sqrt(filter.covariance()(1, 1)), learned);
 }
 
 TEST(TurnErrorFilter, IsNotMovedByAMeasurementThatIsWrong) {

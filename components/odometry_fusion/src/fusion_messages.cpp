@@ -9,7 +9,8 @@
 namespace panvo::odometry_fusion {
 namespace {
 
-constexpr double kNotMeasured = -1.0;  // in the first element of a covariance, REP 145
+constexpr double kNotMeasured = -1.0;    // in the first element of a covariance, REP 145
+constexpr double kLeanWithGyro = 0.7e-4;  // rad/m: its bias at a few metres per second
 
 }  // namespace
 
@@ -45,14 +46,15 @@ nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg:
   return odometry;
 }
 
-panvo_msgs::msg::OdometryQuality to_quality(const FusedPose& fused, double outlier_share,
+panvo_msgs::msg::OdometryQuality to_quality(const FusedPose& fused, const conversions::OdometryJoin::Quality& of_stereo,
                                             const std::string& base_frame) {
   panvo_msgs::msg::OdometryQuality quality;
   quality.header().stamp(conversions::to_stamp(fused.stamp_ns));
   quality.header().frame_id(base_frame);
   quality.reliable(fused.is_reliable);
   // With a gyroscope, rotations do not depend on which points of the image are inliers.
-  quality.inlier_ratio(fused.uses_gyro ? 1.0 : 1.0 - outlier_share);
+  quality.inlier_ratio(fused.uses_gyro ? 1.0 : 1.0 - of_stereo.outlier_share);
+  quality.lean_sigma_rad_per_m(fused.uses_gyro ? kLeanWithGyro : of_stereo.lean_sigma_rad_per_m);
   if (!fused.is_reliable) quality.reason("neither images nor wheels measure the motion");
   return quality;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "nav_msgs/msg/Odometry.h"
+#include "panvo/conversions/odometry_join.hpp"
 #include "panvo/conversions/result.hpp"
 #include "panvo/odometry_fusion/odometry_fusion.hpp"
 #include "panvo_msgs/msg/OdometryQuality.h"
@@ -22,8 +23,7 @@ conversions::Result<WheelSample> to_wheels(std::int64_t stamp_ns, const geometry
 /// `frames`: gives their names.
 nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg::Odometry& frames);
 
-/// `outlier_share`: of the stereo odometry.
-panvo_msgs::msg::OdometryQuality to_quality(const FusedPose& fused, double outlier_share,
+panvo_msgs::msg::OdometryQuality to_quality(const FusedPose& fused, const conversions::OdometryJoin::Quality& of_stereo,
                                             const std::string& base_frame);
 
 }  // namespace panvo::odometry_fusion

@@ -53,14 +53,14 @@ class OdometryFusionComponent final : public runtime::Component {
 
  private:
   static constexpr int kMaxRefused = 5;  // consecutive stereo poses, after which their clock counts as set back
-  static constexpr std::size_t kMaxShares = 100;
+  static constexpr std::size_t kMaxQualities = 100;
 
   void on_stereo(const conversions::OdometryJoin::Joined& joined) {
     const auto pose = conversions::to_isometry(joined.odometry->pose().pose());
     if (!pose) return refuse(topics::kOdometryBinocular.name, pose.reason());
     const std::int64_t stamp_ns = conversions::stamp_ns(*joined.odometry);
     const StereoPose stereo{stamp_ns, *pose, conversions::to_matrix(joined.odometry->pose().covariance()),
-                            joined.is_reliable};
+                            joined.quality.is_reliable};
     if (!fusion_.add(stereo)) {
       if (++refused_ < kMaxRefused) {
         return refuse(topics::kOdometryBinocular.name, "is not later than the previous one, or not finite");
@@ -73,8 +73,8 @@ class OdometryFusionComponent final : public runtime::Component {
     }
     refused_ = 0;
     last_stereo_ = joined.odometry;
-    outlier_shares_[stamp_ns] = joined.outlier_share;
-    if (outlier_shares_.size() > kMaxShares) outlier_shares_.erase(outlier_shares_.begin());
+    qualities_[stamp_ns] = joined.quality;
+    if (qualities_.size() > kMaxQualities) qualities_.erase(qualities_.begin());
     publish();
   }
 
@@ -128,10 +128,10 @@ class OdometryFusionComponent final : public runtime::Component {
     const vision::Stage stage(&timer_, "fuse");
     while (const auto fused = fusion_.next()) {
       map_anchor_.add(*fused);
-      const auto share = outlier_shares_.find(fused->stamp_ns);
-      const double outlier_share = share == outlier_shares_.end() ? 1.0 : share->second;
-      outlier_shares_.erase(outlier_shares_.begin(), outlier_shares_.upper_bound(fused->stamp_ns));
-      quality_.publish(to_quality(*fused, outlier_share, last_stereo_->child_frame_id()));
+      const auto own = qualities_.find(fused->stamp_ns);
+      const auto of_stereo = own == qualities_.end() ? conversions::OdometryJoin::Quality{} : own->second;
+      qualities_.erase(qualities_.begin(), qualities_.upper_bound(fused->stamp_ns));
+      quality_.publish(to_quality(*fused, of_stereo, last_stereo_->child_frame_id()));
       odometry_.publish(to_odometry(*fused, *last_stereo_));
     }
     gyro_notices_.report(name_of(topics::kImu.name), fusion_.gyro());
@@ -185,7 +185,7 @@ class OdometryFusionComponent final : public runtime::Component {
   conversions::SensorMount imu_, wheels_;
   std::string_view wheel_topic_ = topics::kWheelOdometry.name;  // of the first message
   std::shared_ptr<const nav_msgs::msg::Odometry> last_stereo_;
-  std::map<std::int64_t, double> outlier_shares_;  // by stamp, of poses that are not fused yet
+  std::map<std::int64_t, conversions::OdometryJoin::Quality> qualities_;  // by stamp, of poses that are not fused yet
   int refused_ = 0;
 };
 

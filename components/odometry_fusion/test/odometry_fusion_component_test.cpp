@@ -45,6 +45,7 @@ class FusionComponent : public ::testing::Test {
     quality.header().stamp(stamp(t_s));
     quality.reliable(is_reliable);
     quality.inlier_ratio(0.7);
+    quality.lean_sigma_rad_per_m(5e-4);
     harness_.publish(topics::kOdometryQuality, quality);
     covariance_ += 1e-6 * vision::Matrix6d::Identity();
     if (!is_reliable) covariance_ += 1e-3 * vision::Matrix6d::Identity();
@@ -107,6 +108,7 @@ TEST_F(FusionComponent, PassesStereoOdometryOnWithoutOtherSensors) {
   EXPECT_EQ(quality_.back()->header().stamp(), stamp(3.96));
   EXPECT_TRUE(quality_.back()->reliable());
   EXPECT_NEAR(quality_.back()->inlier_ratio(), 0.7, 1e-12);
+  EXPECT_EQ(quality_.back()->lean_sigma_rad_per_m(), 5e-4);
   EXPECT_LT(error_m(), 0.21);  // the pose is 40 ms old, at 5 m/s
 }
 
@@ -114,6 +116,7 @@ TEST_F(FusionComponent, ContinuesByWheelsAndGyroscopeWithoutImages) {
   drive(0.0, 20.0);
   EXPECT_TRUE(harness_.log_contains("/imu/data: agreement with the cameras"));
   EXPECT_TRUE(harness_.log_contains("/wheel/twist: agreement with the cameras"));
+  EXPECT_LT(quality_.back()->lean_sigma_rad_per_m(), 1e-4);  // the gyroscope sees it
   drive(20.0, 25.0, false);
   EXPECT_LT(error_m(), 0.35);  // the pose is up to 40 ms old
   EXPECT_TRUE(quality_.back()->reliable());

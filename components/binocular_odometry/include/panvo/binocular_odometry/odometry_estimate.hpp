@@ -17,6 +17,7 @@ struct Quality {
   int inliers = 0;            ///< candidates consistent with the camera motion
   double inlier_ratio = 0.0;  ///< inliers per candidate
   double residual_px = 0.0;   ///< RMS reprojection error of the inliers
+  double lean_sigma_rad_per_m = 0.0;  ///< of a constant turn per metre, which the covariances do not contain
   bool reliable = false;      ///< true: measured; false: predicted with the last motion
   std::string reason;         ///< why not reliable, with figures ("9 inliers of 20 needed"); empty if reliable
 };

@@ -46,6 +46,7 @@ struct MotionParameters {
   double disparity_offset_step_px = 0.004;
   double motion_error_ratio = 0.012;
   double rotation_error_rad_per_m = 0.0003;
+  double rectification_error_px = 0.01;
   double keyframe_parallax_px = 15.0;
   double keyframe_shared_ratio = 0.75;
   double acceleration = 2.0;
@@ -71,7 +72,11 @@ struct MotionParameters {
           "standard deviation per distance and per angle of errors other than image noise (calibration, shutter)", 0.0,
           1.0);
     field(&P::rotation_error_rad_per_m, "rotation_error_rad_per_m", "rad/m",
-          "like motion_error_ratio, for rotation per distance", 0.0, 1.0);
+          "like motion_error_ratio, for rotation per distance; at least what rectification_error_px causes", 0.0, 1.0);
+    field(&P::rectification_error_px, "rectification_error_px", "px",
+          "standard deviation of lasting disparity errors that differ between the sides of the image: divided by focal "
+          "length and baseline, what odometry turns per metre without noticing; stated in odometry/quality",
+          0.0, 10.0);
     field(&P::keyframe_parallax_px, "keyframe_parallax_px", "px",
           "median feature motion above which a keyframe is created", 1.0, 200.0);
     field(&P::keyframe_shared_ratio, "keyframe_shared_ratio", "1",

@@ -16,10 +16,14 @@ namespace panvo::conversions {
 /// returned in its order of arrival and waits a bounded time for its quality.
 class OdometryJoin {
  public:
+  struct Quality {
+    bool is_reliable = true;
+    double outlier_share = 1.0;         ///< fraction of outliers; 1 if unknown
+    double lean_sigma_rad_per_m = 0.0;  ///< 0 if unknown
+  };
   struct Joined {
     std::shared_ptr<const nav_msgs::msg::Odometry> odometry;
-    bool is_reliable = true;
-    double outlier_share = 1.0;  ///< fraction of outliers; 1 if unknown
+    Quality quality;
     bool lacks_quality = false;  ///< quality is published, but not for this message
   };
 
@@ -33,10 +37,6 @@ class OdometryJoin {
   bool has_quality() const noexcept { return has_quality_; }
 
  private:
-  struct Quality {
-    bool is_reliable;
-    double outlier_share;
-  };
   struct Waiting {
     std::shared_ptr<const nav_msgs::msg::Odometry> odometry;
     std::int64_t since_ns;

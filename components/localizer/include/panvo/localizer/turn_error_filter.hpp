@@ -7,11 +7,14 @@ namespace panvo::localizer {
 
 /// Systematic error of odometry's turns, which the compass shows: a share of each turn, as of an error of focal length
 /// or distortion, which the stereo pair does not notice and a panorama does not have; and a lean per metre, as of an
-/// error of the rectification. Kalman filter with two states.
+/// error of the rectification, which changes slowly with the scene. Kalman filter with two states.
 class TurnErrorFilter {
  public:
   /// Prior standard deviations.
   TurnErrorFilter(double scale_sigma, double lean_sigma_rad_m);
+
+  /// Replaces the prior standard deviation of the lean, before the first measurement only.
+  void expect_lean(double sigma_rad_m);
 
   /// `disagreement_rad`: turn by panoramas minus turn by odometry between the same two times, the latter corrected by
   /// error_rad(); `turn_rad`, `way_m`: by odometry; `variance_rad2`: of the disagreement of exact odometry.
@@ -25,6 +28,8 @@ class TurnErrorFilter {
   const Eigen::Matrix2d& covariance() const noexcept { return covariance_; }
 
  private:
+  double lean_sigma_rad_m_;
+  bool has_learned_ = false;
   Eigen::Vector2d state_ = Eigen::Vector2d::Zero();  // scale, lean
   Eigen::Matrix2d covariance_;
 };
