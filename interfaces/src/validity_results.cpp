@@ -12,7 +12,7 @@ constexpr double kMaxTurn_rad = std::numbers::pi + 1e-6;  // allows for rounding
 constexpr double kMaxAngleVariance = 1e3;                 // larger than any angle squared, so "unknown"
 constexpr double kMaxSigma = 1e9;                         // of an unknown pose
 constexpr double kMaxResidual_px = 1e6;
-constexpr double kMaxLean_rad_per_m = 10.0;
+constexpr double kMaxLean = 10.0;  // rad/m
 constexpr double kMaxBearingError = 1e-3;  // of the length of a unit vector
 constexpr std::size_t kMaxTracks = 16;
 constexpr std::size_t kMaxTrackedPoints = 100'000;
@@ -83,7 +83,7 @@ Problem problem_of(const panvo_msgs::msg::OdometryQuality& message) {
   check.text("reason", message.reason());
   check.within("inlier_ratio", message.inlier_ratio(), 0.0, 1.0);
   check.within("residual_px", message.residual_px(), 0.0, kMaxResidual_px);
-  check.within("lean_sigma_rad_per_m", message.lean_sigma_rad_per_m(), 0.0, kMaxLean_rad_per_m);
+  check.within("lean_sigma_rad_per_m", message.lean_sigma_rad_per_m(), 0.0, kMaxLean);
   return check.problem();
 }
 

@@ -43,7 +43,7 @@ class GnssDrive {
     return now();
   }
 
-  OdometryPose now() const { return {stamp_ns(), odom_, covariance_, true, 0.0, kLean_rad_m}; }
+  OdometryPose now() const { return {stamp_ns(), odom_, covariance_, true, 0.0, kLean}; }
   std::int64_t stamp_ns() const { return static_cast<std::int64_t>(steps_) * kPeriod_ns; }
 
   GnssFix fix() {
@@ -58,7 +58,7 @@ class GnssDrive {
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
 
  private:
-  static constexpr double kLean_rad_m = 1e-5;  // hardly any
+  static constexpr double kLean = 1e-5;  // rad/m: hardly any
 
   Eigen::Vector3d noise() { return {normal_(random_), normal_(random_), normal_(random_)}; }
 
