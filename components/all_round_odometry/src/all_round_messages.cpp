@@ -40,7 +40,8 @@ nav_msgs::msg::Odometry to_odometry(const AllRoundPose& pose, const nav_msgs::ms
   return odometry;
 }
 
-panvo_msgs::msg::OdometryQuality to_quality(const AllRoundPose& pose, const conversions::OdometryJoin::Quality& of_stereo,
+panvo_msgs::msg::OdometryQuality to_quality(const AllRoundPose& pose,
+                                            const conversions::OdometryJoin::Quality& of_stereo,
                                             const std::string& base_frame) {
   panvo_msgs::msg::OdometryQuality quality;
   quality.header().stamp(conversions::to_stamp(pose.stamp_ns));

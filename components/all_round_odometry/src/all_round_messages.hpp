@@ -20,7 +20,8 @@ conversions::Result<PanoramaPoints> to_points(const panvo_msgs::msg::PanoramaPoi
 nav_msgs::msg::Odometry to_odometry(const AllRoundPose& pose, const nav_msgs::msg::Odometry& like,
                                     const vision::Vector6d& twist);
 
-panvo_msgs::msg::OdometryQuality to_quality(const AllRoundPose& pose, const conversions::OdometryJoin::Quality& of_stereo,
+panvo_msgs::msg::OdometryQuality to_quality(const AllRoundPose& pose,
+                                            const conversions::OdometryJoin::Quality& of_stereo,
                                             const std::string& base_frame);
 
 }  // namespace panvo::all_round_odometry

@@ -9,7 +9,7 @@
 namespace panvo::odometry_fusion {
 namespace {
 
-constexpr double kNotMeasured = -1.0;    // in the first element of a covariance, REP 145
+constexpr double kNotMeasured = -1.0;     // in the first element of a covariance, REP 145
 constexpr double kLeanWithGyro = 0.7e-4;  // rad/m: its bias at a few metres per second
 
 }  // namespace

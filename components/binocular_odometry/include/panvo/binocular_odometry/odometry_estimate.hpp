@@ -11,15 +11,15 @@ namespace panvo::binocular_odometry {
 
 /// Quality of an estimate.
 struct Quality {
-  int detected = 0;           ///< features found in the frame
-  int tracked = 0;            ///< of these, tracked from earlier frames
-  int matched = 0;            ///< of the detected ones, also found in the right image
-  int inliers = 0;            ///< candidates consistent with the camera motion
-  double inlier_ratio = 0.0;  ///< inliers per candidate
-  double residual_px = 0.0;   ///< RMS reprojection error of the inliers
+  int detected = 0;                   ///< features found in the frame
+  int tracked = 0;                    ///< of these, tracked from earlier frames
+  int matched = 0;                    ///< of the detected ones, also found in the right image
+  int inliers = 0;                    ///< candidates consistent with the camera motion
+  double inlier_ratio = 0.0;          ///< inliers per candidate
+  double residual_px = 0.0;           ///< RMS reprojection error of the inliers
   double lean_sigma_rad_per_m = 0.0;  ///< of a constant turn per metre, which the covariances do not contain
-  bool reliable = false;      ///< true: measured; false: predicted with the last motion
-  std::string reason;         ///< why not reliable, with figures ("9 inliers of 20 needed"); empty if reliable
+  bool reliable = false;              ///< true: measured; false: predicted with the last motion
+  std::string reason;                 ///< why not reliable, with figures ("9 inliers of 20 needed"); empty if reliable
 };
 
 /// Estimate for one frame. Coordinate frames are left rectified optical frames; odom is that of the first image.

@@ -15,7 +15,7 @@ struct OdometryPose {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  bool is_reliable = true;     ///< false: extrapolated without measurement
+  bool is_reliable = true;            ///< false: extrapolated without measurement
   double outlier_share = 1.0;         ///< fraction of outlier points, [0, 1]; 1 if unknown
   double lean_sigma_rad_per_m = 0.0;  ///< of a constant turn per metre, not in the covariance; 0 if unknown
 };
