@@ -76,7 +76,7 @@ struct MotionParameters {
     field(&P::rectification_error_px, "rectification_error_px", "px",
           "standard deviation of lasting disparity errors that differ between the sides of the image: divided by focal "
           "length and baseline, what odometry turns per metre without noticing; stated in odometry/quality",
-          0.0, 10.0);
+          1e-6, 10.0);
     field(&P::keyframe_parallax_px, "keyframe_parallax_px", "px",
           "median feature motion above which a keyframe is created", 1.0, 200.0);
     field(&P::keyframe_shared_ratio, "keyframe_shared_ratio", "1",

@@ -30,7 +30,7 @@ struct SimulationParameters {
   Route route;
   Rig rig = paper_rig();
   Effects effects;
-  MotionParameters motion;
+  MotionParameters motion;  ///< except the speed, which is that of the rig's vehicle
   std::uint64_t seed = 1;
   double hilliness = 0.0;
   double calibration_error = 0.0;  ///< of the published stereo calibration; 1: a good one after months of driving
