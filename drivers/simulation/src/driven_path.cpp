@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Converts a route to the vehicle's path: right-hand lanes, connected by arcs at the junctions, all smoothed.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
+#include <utility>
 
 #include "panvo/simulation/route.hpp"
+#include "route_legs.hpp"
 
 namespace panvo::simulation {
 
-using simulated_world::Road;
 using simulated_world::RoadNetwork;
 
 namespace {
@@ -21,109 +19,14 @@ using Eigen::Vector2d;
 
 constexpr double kStep_m = 0.1;              // between the path's points
 constexpr double kMinRadius_m = 5.0;         // of turns
+constexpr double kStraight_rad = 0.7;        // a change of direction below it is no turn
 constexpr double kMaxUsed = 0.45;            // fraction of a road that the turn at one end may use
 constexpr double kSmoothing_m = 1.2;         // standard deviation: curvature changes over about 4 m
 constexpr double kClearOfCrossing_m = 12.0;  // distance of the path's ends from the first and last junction
 constexpr double kClearOfEnd_m = 3.0;        // the same in a cul-de-sac
 
-Vector2d left_of(const Vector2d& way) { return {-way.y(), way.x()}; }
-
 double angle_between(const Vector2d& a, const Vector2d& b) {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-}
-
-// One road of the route, in driving direction.
-struct Leg {
-  int road = 0, from = 0, to = 0;
-  std::vector<Vector2d> lane, ways;  // points of the lane and unit directions at them
-  double length_m = 0.0;
-  double offset_m = 0.0;  // right of the centre line
-  double begin_m = 0.0, end_m = 0.0;
-
-  // `along` may lie outside the lane, which is extended straight at both ends.
-  Vector2d at(double along) const {
-    const auto [i, share] = place(along);
-    return (1.0 - share) * lane[i] + share * lane[i + 1];
-  }
-  Vector2d way(double along) const {
-    const auto [i, share] = place(along);
-    const double inside = std::clamp(share, 0.0, 1.0);
-    return ((1.0 - inside) * ways[i] + inside * ways[i + 1]).normalized();
-  }
-
- private:
-  std::pair<std::size_t, double> place(double along) const {
-    const double at = along / length_m * static_cast<double>(lane.size() - 1);
-    const double i = std::clamp(std::floor(at), 0.0, static_cast<double>(lane.size() - 2));
-    return {static_cast<std::size_t>(i), at - i};
-  }
-};
-
-Leg leg_of(const RoadNetwork& roads, int number, int from) {
-  const Road& road = roads.roads[static_cast<std::size_t>(number)];
-  Leg leg;
-  leg.road = number;
-  leg.from = from;
-  leg.to = road.from == from ? road.to : road.from;
-  leg.lane = road.centre_line;
-  if (road.from != from) std::reverse(leg.lane.begin(), leg.lane.end());
-  leg.offset_m = road.width_m / 4.0;
-  const auto last = leg.lane.size() - 1;
-  for (std::size_t i = 0; i <= last; ++i) {
-    leg.ways.push_back((leg.lane[std::min(i + 1, last)] - leg.lane[i > 0 ? i - 1 : 0]).normalized());
-    if (i > 0) leg.length_m += (leg.lane[i] - leg.lane[i - 1]).norm();
-  }
-  for (std::size_t i = 0; i <= last; ++i) leg.lane[i] -= leg.offset_m * left_of(leg.ways[i]);
-  leg.end_m = leg.length_m;
-  return leg;
-}
-
-std::string route_names(const RoadNetwork& roads) {
-  std::string names;
-  for (const simulated_world::Junction& junction : roads.junctions)
-    names += (names.empty() ? "" : ", ") + junction.name;
-  return names;
-}
-
-std::vector<Leg> legs_of(const RoadNetwork& roads, const Route& route) {
-  if (route.junctions.size() < 2) {
-    throw std::invalid_argument(
-        fmt::format("route {}: needs at least two junctions, has {}", route.name, route.junctions.size()));
-  }
-  std::vector<int> numbers;
-  for (const std::string& name : route.junctions) {
-    const auto number = roads.find(name);
-    if (!number) {
-      throw std::invalid_argument(
-          fmt::format("route {}: unknown junction {}; known: {}", route.name, name, route_names(roads)));
-    }
-    numbers.push_back(*number);
-  }
-  std::vector<Leg> legs;
-  for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
-    const int from = numbers[i], to = numbers[i + 1];
-    std::optional<int> joining;
-    std::string neighbours;
-    for (const int number : roads.junctions[static_cast<std::size_t>(from)].roads) {
-      const Road& road = roads.roads[static_cast<std::size_t>(number)];
-      const int other = road.from == from ? road.to : road.from;
-      if (other == to && !joining) joining = number;
-      neighbours += (neighbours.empty() ? "" : ", ") + roads.junctions[static_cast<std::size_t>(other)].name;
-    }
-    if (!joining) {
-      throw std::invalid_argument(fmt::format("route {}: no road joins {} and {}; from {} roads lead to {}", route.name,
-                                              route.junctions[i], route.junctions[i + 1], route.junctions[i],
-                                              neighbours));
-    }
-    if (!legs.empty() && legs.back().road == *joining && from != to &&
-        roads.junctions[static_cast<std::size_t>(from)].roads.size() > 1) {
-      throw std::invalid_argument(
-          fmt::format("route {}: turns back at {}, which is not a cul-de-sac; continue to another of {}", route.name,
-                      route.junctions[i], neighbours));
-    }
-    legs.push_back(leg_of(roads, *joining, from));
-  }
-  return legs;
 }
 
 void add_arc(std::vector<Vector2d>& points, const Vector2d& centre, const Vector2d& from, double angle) {
@@ -184,7 +87,7 @@ std::vector<Vector2d> straight_on(Leg& in, Leg& out, double angle) {
 
 // An arc through a junction. A right turn follows the rounded kerb closely; a left turn is wider.
 std::vector<Vector2d> turn(Leg& in, Leg& out) {
-  constexpr double kStraight_rad = 0.7, kRightReach_m = 6.0, kLeftReach_m = 8.5, kMaxRadius_m = 16.0;
+  constexpr double kRightReach_m = 6.0, kLeftReach_m = 8.5, kMaxRadius_m = 16.0;
   const double angle = angle_between(in.way(in.length_m - 5.0), out.way(5.0));
   if (std::abs(angle) < kStraight_rad) return straight_on(in, out, angle);
   const double side = angle > 0.0 ? 1.0 : -1.0;
@@ -241,12 +144,12 @@ std::vector<Vector2d> evenly(const std::vector<Vector2d>& points) {
   return even;
 }
 
-// Convolution with a Gaussian; the line is extended at both ends by its point reflection.
 void keep_left(Leg& leg, double left_m) {
   leg.offset_m -= left_m;
   for (std::size_t i = 0; i < leg.lane.size(); ++i) leg.lane[i] += left_m * left_of(leg.ways[i]);
 }
 
+// Convolution with a Gaussian; the line is extended at both ends by its point reflection.
 std::vector<Vector2d> smoothed(const std::vector<Vector2d>& points) {
   const auto reach = static_cast<int>(std::ceil(4.0 * kSmoothing_m / kStep_m));
   std::vector<double> weights;
@@ -271,44 +174,86 @@ std::vector<Vector2d> smoothed(const std::vector<Vector2d>& points) {
   return smooth;
 }
 
-}  // namespace
+// How the vehicle gets from one leg to the next: lines, of which the first one continues the leg before and the last one
+// is continued by the leg after. Where one line ends and the next begins, it turns in place.
+using Joint = std::vector<std::vector<Vector2d>>;
 
-DrivenPath drive(const RoadNetwork& roads, const Route& route, double left_m) {
-  std::vector<Leg> legs = legs_of(roads, route);
-  for (auto& leg : legs) keep_left(leg, left_m);
-  std::vector<std::vector<Vector2d>> joints;
+Joint join_as_car(Leg& in, Leg& out, bool is_end) { return {is_end ? turn_back(in, out) : turn(in, out)}; }
+
+// Turns where both lanes meet; at the end of a cul-de-sac it crosses the road to the other lane.
+Joint join_turning_in_place(Leg& in, Leg& out, bool is_end) {
+  if (is_end) {
+    out.begin_m = std::min(kClearOfEnd_m, kMaxUsed * out.length_m);
+    in.end_m = in.length_m - out.begin_m;
+    const Vector2d here = in.at(in.end_m), there = out.at(out.begin_m);
+    return {{here}, {here, there}, {there}};
+  }
+  const double angle = angle_between(in.way(in.length_m - 5.0), out.way(5.0));
+  const auto meeting = std::abs(angle) < kStraight_rad ? std::nullopt : touching_circle(in, out, 0.0, 1.0);
+  if (!meeting) return {straight_on(in, out, angle)};
+  in.end_m = meeting->on_in_m;
+  out.begin_m = meeting->on_out_m;
+  return {{meeting->centre}, {meeting->centre}};
+}
+
+std::vector<std::vector<Vector2d>> lines_of(const RoadNetwork& roads, std::vector<Leg> legs, Steering steering) {
+  const auto is_end = [&](int junction) {
+    return roads.junctions[static_cast<std::size_t>(junction)].roads.size() == 1;
+  };
+  std::vector<Joint> joints;
   for (std::size_t i = 0; i + 1 < legs.size(); ++i) {
-    const bool back = roads.junctions[static_cast<std::size_t>(legs[i].to)].roads.size() == 1;
-    joints.push_back(back ? turn_back(legs[i], legs[i + 1]) : turn(legs[i], legs[i + 1]));
+    const auto join = steering == Steering::kCar ? join_as_car : join_turning_in_place;
+    joints.push_back(join(legs[i], legs[i + 1], is_end(legs[i].to)));
   }
   const auto clear_of = [&](int junction, double length) {
-    const bool end = roads.junctions[static_cast<std::size_t>(junction)].roads.size() == 1;
-    return std::min(end ? kClearOfEnd_m : kClearOfCrossing_m, kMaxUsed * length);
+    return std::min(is_end(junction) ? kClearOfEnd_m : kClearOfCrossing_m, kMaxUsed * length);
   };
   legs.front().begin_m = clear_of(legs.front().from, legs.front().length_m);
   legs.back().end_m = legs.back().length_m - clear_of(legs.back().to, legs.back().length_m);
 
-  std::vector<Vector2d> points;
+  std::vector<std::vector<Vector2d>> lines(1);
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    for (double along = legs[i].begin_m; along < legs[i].end_m; along += kStep_m) points.push_back(legs[i].at(along));
-    if (i < joints.size()) points.insert(points.end(), joints[i].begin(), joints[i].end());
+    auto along = legs[i].begin_m;
+    // the point where it turned is the line's first one already
+    if (i > 0 && joints[i - 1].size() > 1) along += kStep_m;
+    for (; along < legs[i].end_m; along += kStep_m) lines.back().push_back(legs[i].at(along));
+    if (i == joints.size()) break;
+    lines.back().insert(lines.back().end(), joints[i].front().begin(), joints[i].front().end());
+    lines.insert(lines.end(), joints[i].begin() + 1, joints[i].end());
   }
-  points.push_back(legs.back().at(legs.back().end_m));
+  lines.back().push_back(legs.back().at(legs.back().end_m));
+  return lines;
+}
 
-  DrivenPath path;
-  path.points = evenly(smoothed(evenly(points)));
+// Appends a line of evenly spaced points, the first of which is the last one of the line before.
+void append(const std::vector<Vector2d>& points, DrivenPath& path) {
+  const std::size_t begin = path.points.empty() ? 0 : path.points.size() - 1;
+  if (!path.points.empty()) {
+    path.turns_in_place.push_back(begin);
+    path.points.pop_back();
+  }
+  path.points.insert(path.points.end(), points.begin(), points.end());
   const std::size_t count = path.points.size();
-  path.along_m.assign(count, 0.0);
-  path.curvature_per_m.assign(count, 0.0);
-  for (std::size_t i = 1; i < count; ++i) {
+  path.along_m.resize(count, 0.0);
+  path.curvature_per_m.resize(count, 0.0);
+  for (std::size_t i = begin + 1; i < count; ++i) {
     path.along_m[i] = path.along_m[i - 1] + (path.points[i] - path.points[i - 1]).norm();
   }
   // from points two steps away: with single steps, rounding errors would be visible
   constexpr std::size_t kApart = 2;
-  for (std::size_t i = kApart; i + kApart < count; ++i) {
+  for (std::size_t i = begin + kApart; i + kApart < count; ++i) {
     const Vector2d before = path.points[i] - path.points[i - kApart], after = path.points[i + kApart] - path.points[i];
     path.curvature_per_m[i] = 2.0 * angle_between(before, after) / (before.norm() + after.norm());
   }
+}
+
+}  // namespace
+
+DrivenPath drive(const RoadNetwork& roads, const Route& route, double left_m, Steering steering) {
+  std::vector<Leg> legs = legs_of(roads, route);
+  for (auto& leg : legs) keep_left(leg, left_m);
+  DrivenPath path;
+  for (const auto& line : lines_of(roads, std::move(legs), steering)) append(evenly(smoothed(evenly(line))), path);
   return path;
 }
 

@@ -166,10 +166,10 @@ EurocWriter::~EurocWriter() = default;
 /// Before the first image, writes everything that determines the pixels, so that two simulations are not mixed.
 void EurocWriter::describe() {
   const auto& parameters = simulation_.parameters();
-  std::string asked =
-      fmt::format("format: {}\nassets: {}\nvibration: {:g}\nbody: {}\nspeed: {:g}\n{}", extension(format_),
-                  parameters.assets.string(), parameters.motion.vibration, parameters.rig.vehicle.has_body,
-                  parameters.rig.vehicle.speed_m_per_s, sequence_yaml(simulation_));
+  std::string asked = fmt::format(
+      "format: {}\nassets: {}\nvibration: {:g}\nbody: {}\nspeed: {:g}\nturns in place: {}\n{}", extension(format_),
+      parameters.assets.string(), parameters.motion.vibration, parameters.rig.vehicle.has_body,
+      parameters.rig.vehicle.speed_m_per_s, parameters.rig.vehicle.turns_in_place, sequence_yaml(simulation_));
   for (const auto& camera : cameras_) asked += camera.description;
   const auto file = directory_ / kAsked;
   if (!fs::exists(file)) {

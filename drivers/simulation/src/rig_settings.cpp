@@ -186,6 +186,7 @@ RigSettings read_rig_settings(const std::filesystem::path& file) {
   Group vehicle(file.string(), "vehicle", root["vehicle"], problems);
   vehicle.flag("has_body", settings.vehicle.has_body);
   vehicle.number("speed_m_per_s", settings.vehicle.speed_m_per_s, 0.1, 30.0, "m/s");
+  vehicle.flag("turns_in_place", settings.vehicle.turns_in_place);
   vehicle.finish();
   Group panorama(file.string(), "panorama", root["panorama"], problems);
   read_panorama(panorama, settings.panorama, settings.vehicle.has_body);

@@ -102,7 +102,8 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
                duration_s, stereo, panorama, stamp, quality] = parameters_;
   check_parameters(parameters_);
   const std::uint64_t own = day.seed.value_or(seed);
-  const auto path = drive(simulated_world::campus_roads(seed), route, day.left_m);
+  const auto steering = rig.vehicle.turns_in_place ? Steering::kDifferential : Steering::kCar;
+  const auto path = drive(simulated_world::campus_roads(seed), route, day.left_m, steering);
   motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness),
                                             at_speed(motion, rig.vehicle.speed_m_per_s), own);
   weather_ = std::make_unique<Weather>(day, motion_->duration_s(), effects, own);

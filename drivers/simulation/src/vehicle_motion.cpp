@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "panvo/simulated_world/random.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double kTimeStep_s = 0.02;
 constexpr int kSmoothingHalf = 7;  // steps to each side, applied three times: acceleration changes within 0.4 s
+constexpr int kReach = 3 * kSmoothingHalf;
 constexpr double kWheelBase_m = 2.6, kTrack_m = 1.5;
 constexpr std::size_t kWaves = 6;
 
@@ -58,18 +60,45 @@ void check(const DrivenPath& path, const MotionParameters& parameters) {
   require(parameters.standstill_s >= 0.0, "standstill_s", parameters.standstill_s, "zero or more");
   require(parameters.vibration >= 0.0, "vibration", parameters.vibration, "zero or more");
 
+  require(parameters.turn_rate_rad_per_s > 0.0, "turn_rate_rad_per_s", parameters.turn_rate_rad_per_s, "positive");
+  require(parameters.max_wait_s >= 0.0, "max_wait_s", parameters.max_wait_s, "zero or more");
+
   const std::size_t count = path.points.size();
   if (count < 2 || path.along_m.size() != count || path.curvature_per_m.size() != count) {
     throw std::invalid_argument(
         "vehicle motion: the path needs at least two points, each with arc length and curvature");
   }
-  const double step = path.along_m.back() / static_cast<double>(count - 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!(std::abs(path.along_m[i] - step * static_cast<double>(i)) < 0.5 * step)) {
+}
+
+void check_even(const std::vector<double>& along_m, std::size_t first, std::size_t last) {
+  if (last <= first || last >= along_m.size()) {
+    throw std::invalid_argument("vehicle motion: the path's turns in place must be inside it, in ascending order");
+  }
+  const double step = (along_m[last] - along_m[first]) / static_cast<double>(last - first);
+  for (std::size_t i = first; i <= last; ++i) {
+    if (!(std::abs(along_m[i] - along_m[first] - step * static_cast<double>(i - first)) < 0.5 * step)) {
       throw std::invalid_argument("vehicle motion: the path's points must be evenly spaced");
     }
   }
 }
+
+// Three moving averages, which together are nearly a Gaussian.
+std::vector<double> smoothed_in_time(std::vector<double> values) {
+  const auto last = static_cast<int>(values.size()) - 1;
+  for (int pass = 0; pass < 3; ++pass) {
+    const std::vector<double> raw = values;
+    for (int i = 0; i <= last; ++i) {
+      double sum = 0.0;
+      for (int k = i - kSmoothingHalf; k <= i + kSmoothingHalf; ++k) {
+        sum += raw[static_cast<std::size_t>(std::clamp(k, 0, last))];
+      }
+      values[static_cast<std::size_t>(i)] = sum / (2 * kSmoothingHalf + 1);
+    }
+  }
+  return values;
+}
+
+double heading_of(const Eigen::Vector2d& way) { return std::atan2(way.y(), way.x()); }
 
 // Sinusoids with incommensurate frequencies between `low` and `high` whose sum has the given `rms`.
 template <typename Wave>
@@ -91,23 +120,74 @@ VehicleMotion::VehicleMotion(const DrivenPath& path, const simulated_world::Terr
                              const MotionParameters& parameters, std::uint64_t seed)
     : path_(path), terrain_(terrain), cruise_speed_m_per_s_(parameters.cruise_speed_m_per_s) {
   check(path, parameters);
-  path_step_m_ = path.along_m.back() / static_cast<double>(path.points.size() - 1);
-  plan_speed(parameters);
+  plan(parameters, seed);
   const Random random(seed, "vibration");
   pitch_ = waves<Wave>(random.part(0), 1.0, 3.0, parameters.vibration * parameters.pitch_rms_rad);
   roll_ = waves<Wave>(random.part(1), 0.9, 2.6, parameters.vibration * parameters.roll_rms_rad);
   height_ = waves<Wave>(random.part(2), 1.1, 3.0, parameters.vibration * parameters.height_rms_m);
 }
 
+void VehicleMotion::plan(const MotionParameters& parameters, std::uint64_t seed) {
+  std::vector<std::size_t> ends = path_.turns_in_place;
+  ends.push_back(path_.points.size() - 1);
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    check_even(path_.along_m, begin, end);
+    const auto at = [&](std::size_t i) { return path_.points.begin() + static_cast<std::ptrdiff_t>(i); };
+    lines_.push_back({{at(begin), at(end) + 1},
+                      path_.along_m[begin],
+                      (path_.along_m[end] - path_.along_m[begin]) / static_cast<double>(end - begin)});
+    begin = end;
+  }
+
+  // standstill before and after: as configured, plus the reach of the smoothing
+  const auto before = static_cast<std::size_t>(std::ceil(parameters.standstill_s / kTimeStep_s)) + kReach;
+  arc_m_.assign(before, 0.0);
+  Random random(seed, "waits");
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (i > 0) {
+      const auto& ended = lines_[i - 1].points;
+      const auto [_, in] = spline(ended, static_cast<double>(ended.size() - 1));
+      const auto [__, out] = spline(lines_[i].points, 0.0);
+      const double angle = std::remainder(heading_of(out) - heading_of(in), 2.0 * std::numbers::pi);
+      turn_in_place(angle, random.uniform(0.0, parameters.max_wait_s), parameters.turn_rate_rad_per_s, lines_[i]);
+    }
+    follow(lines_[i], parameters);
+  }
+  arc_m_.insert(arc_m_.end(), 2 * kReach, path_.along_m.back());
+  duration_s_ = kTimeStep_s * static_cast<double>(arc_m_.size() - 1);
+  arc_m_ = smoothed_in_time(std::move(arc_m_));
+  if (lines_.size() == 1) return;
+  turned_rad_.resize(arc_m_.size(), lines_.back().turned_rad);
+  turned_rad_ = smoothed_in_time(std::move(turned_rad_));
+}
+
+// Stands until the smoothing has ended, waits, and turns by `angle_rad` at a constant rate.
+void VehicleMotion::turn_in_place(double angle_rad, double wait_s, double rate_rad_per_s, Line& next) {
+  const double before_rad = (&next - 1)->turned_rad;
+  const auto stands = static_cast<std::size_t>(std::ceil(wait_s / kTimeStep_s)) + 2 * kReach;
+  const auto turns = static_cast<std::size_t>(std::ceil(std::abs(angle_rad) / (rate_rad_per_s * kTimeStep_s)));
+  turned_rad_.resize(arc_m_.size() + stands, before_rad);
+  for (std::size_t i = 0; i < turns; ++i) {
+    turned_rad_.push_back(before_rad + angle_rad * static_cast<double>(i) / static_cast<double>(turns));
+  }
+  next.from_s = kTimeStep_s * (static_cast<double>(arc_m_.size() + stands) + 0.5 * static_cast<double>(turns));
+  next.turned_rad = before_rad + angle_rad;
+  turned_rad_.resize(turned_rad_.size() + 2 * kReach, next.turned_rad);
+  arc_m_.resize(turned_rad_.size(), next.begin_m);
+}
+
 // The fastest motion within all limits: limited by curvature, then by acceleration in a forward pass and by braking in
-// a backward pass, then smoothed in time, which keeps the limits.
-void VehicleMotion::plan_speed(const MotionParameters& parameters) {
-  const std::size_t count = path_.points.size();
-  const double step = path_step_m_;
+// a backward pass, to be smoothed in time, which keeps the limits.
+void VehicleMotion::follow(const Line& line, const MotionParameters& parameters) {
+  const std::size_t count = line.points.size();
+  const auto first =
+      static_cast<std::size_t>(std::ranges::lower_bound(path_.along_m, line.begin_m) - path_.along_m.begin());
+  const double step = line.step_m;
   std::vector<double> speed(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const double in_turn =
-        std::sqrt(parameters.turn_acceleration_m_per_s2 / std::max(std::abs(path_.curvature_per_m[i]), 1e-6));
+    const double curvature_per_m = std::abs(path_.curvature_per_m[first + i]);
+    const double in_turn = std::sqrt(parameters.turn_acceleration_m_per_s2 / std::max(curvature_per_m, 1e-6));
     speed[i] = std::clamp(in_turn, parameters.min_speed_m_per_s, parameters.cruise_speed_m_per_s);
   }
   speed.front() = speed.back() = 0.0;
@@ -119,33 +199,16 @@ void VehicleMotion::plan_speed(const MotionParameters& parameters) {
     speed[i - 1] = std::min(speed[i - 1], std::sqrt(speed[i] * speed[i] + gain));
   }
 
-  // standstill before and after: as configured, plus the reach of the smoothing
-  constexpr int kReach = 3 * kSmoothingHalf;
-  const int before = static_cast<int>(std::ceil(parameters.standstill_s / kTimeStep_s)) + kReach;
-  arc_m_.assign(static_cast<std::size_t>(before), 0.0);
+  const std::size_t before = arc_m_.size();
   double segment_begins_s = 0.0, next_s = 0.0;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double lasts = 2.0 * step / (speed[i] + speed[i + 1]);
     const double acceleration = (speed[i + 1] - speed[i]) / lasts;
-    for (; next_s < segment_begins_s + lasts; next_s = kTimeStep_s * (static_cast<double>(arc_m_.size()) - before)) {
+    for (; next_s < segment_begins_s + lasts; next_s = kTimeStep_s * static_cast<double>(arc_m_.size() - before)) {
       const double t = next_s - segment_begins_s;
-      arc_m_.push_back(static_cast<double>(i) * step + (speed[i] + 0.5 * acceleration * t) * t);
+      arc_m_.push_back(line.begin_m + static_cast<double>(i) * step + (speed[i] + 0.5 * acceleration * t) * t);
     }
     segment_begins_s += lasts;
-  }
-  arc_m_.insert(arc_m_.end(), 2 * kReach, path_.along_m.back());
-  duration_s_ = kTimeStep_s * static_cast<double>(arc_m_.size() - 1);
-
-  const auto last = static_cast<int>(arc_m_.size()) - 1;
-  for (int pass = 0; pass < 3; ++pass) {
-    const std::vector<double> raw = arc_m_;
-    for (int i = 0; i <= last; ++i) {
-      double sum = 0.0;
-      for (int k = i - kSmoothingHalf; k <= i + kSmoothingHalf; ++k) {
-        sum += raw[static_cast<std::size_t>(std::clamp(k, 0, last))];
-      }
-      arc_m_[static_cast<std::size_t>(i)] = sum / (2 * kSmoothingHalf + 1);
-    }
   }
 }
 
@@ -161,9 +224,13 @@ double VehicleMotion::speed_m_per_s(double t_s) const {
   return std::max(0.0, spline(arc_m_, t_s / kTimeStep_s).first / kTimeStep_s);
 }
 
-VehicleMotion::Place VehicleMotion::place(double arc_m) const {
-  const auto [position, way] = spline(path_.points, arc_m / path_step_m_);
-  return {position, std::atan2(way.y(), way.x())};
+VehicleMotion::Place VehicleMotion::place(double t_s) const {
+  const auto after = std::ranges::upper_bound(lines_.begin() + 1, lines_.end(), t_s, {}, &Line::from_s);
+  const Line& line = *(after - 1);
+  const auto [position, way] = spline(line.points, (travelled_m(t_s) - line.begin_m) / line.step_m);
+  if (turned_rad_.empty()) return {position, heading_of(way)};
+  const double turned_rad = spline(turned_rad_, t_s / kTimeStep_s).value;
+  return {position, heading_of(way) + turned_rad - line.turned_rad};
 }
 
 double VehicleMotion::sum(const std::vector<Wave>& waves, double t_s) const {
@@ -174,7 +241,7 @@ double VehicleMotion::sum(const std::vector<Wave>& waves, double t_s) const {
 
 Eigen::Isometry3d VehicleMotion::world_from_base(double t_s) const {
   const double t = std::clamp(t_s, 0.0, duration_s_);
-  const auto [position, heading] = place(travelled_m(t));
+  const auto [position, heading] = place(t);
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading)), left(-ahead.y(), ahead.x());
   const double front = terrain_.height_m(position + 0.5 * kWheelBase_m * ahead);
   const double rear = terrain_.height_m(position - 0.5 * kWheelBase_m * ahead);

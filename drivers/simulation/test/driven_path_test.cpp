@@ -82,5 +82,29 @@ TEST(DrivenPath, IsEvenAndItsCurvatureIsContinuous) {
   EXPECT_NEAR(std::remainder(turned - expected, 2.0 * M_PI), 0.0, 0.01);
 }
 
+TEST(DrivenPath, OfARobotThatTurnsInPlaceIsStraightBetweenItsTurns) {
+  const simulated_world::Site site({1, 0.0, false}, campus_roads(1), nullptr);
+  const Route route{"test", {"hospital", "east_gate", "hospital", "museum", "theatre"}, ""};
+  const DrivenPath path = drive(site.roads, route, 0.0, Steering::kDifferential);
+  const auto way = [&](std::size_t from) -> Eigen::Vector2d {
+    return (path.points[from + 1] - path.points[from]).normalized();
+  };
+  // in the cul-de-sac of east_gate it turns to the left twice
+  std::vector<double> turns_deg;
+  for (const std::size_t i : path.turns_in_place) {
+    const Eigen::Vector2d in = way(i - 1), out = way(i);
+    turns_deg.push_back(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)) * 180.0 / M_PI);
+  }
+  ASSERT_EQ(turns_deg.size(), 3U);
+  EXPECT_NEAR(turns_deg[0], 90.0, 3.0);
+  EXPECT_NEAR(turns_deg[1], 90.0, 3.0);
+  for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
+    EXPECT_LT(site.distance_from_kerb(path.points[i]), -0.5) << path.points[i].transpose();
+    EXPECT_NEAR((path.points[i] - path.points[i - 1]).norm(), 0.1, 0.005);
+    if (std::ranges::binary_search(path.turns_in_place, i)) continue;
+    EXPECT_GT(way(i).dot(way(i - 1)), std::cos(0.03)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace panvo::simulation

@@ -116,6 +116,7 @@ TEST_F(RigFile, APanoramaWithinTheVehicleIsRefusedUnlessThereIsNone) {
 
 TEST_F(RigFile, GivesTheVehiclesSpeed) {
   EXPECT_EQ(read_rig(write("vehicle: {speed_m_per_s: 0.8}\n")).vehicle.speed_m_per_s, 0.8);
+  EXPECT_TRUE(read_rig(write("vehicle: {turns_in_place: true}\n")).vehicle.turns_in_place);
   EXPECT_THAT(refusal("vehicle:\n  speed_m_per_s: 0\n"),
               AllOf(HasSubstr(":2: vehicle.speed_m_per_s"), HasSubstr("0.1 to 30 m/s")));
 }

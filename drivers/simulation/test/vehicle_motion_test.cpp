@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -124,6 +125,36 @@ TEST(VehicleMotion, VibratesAsMuchAsAskedForAndNotAtAllAtRest) {
   EXPECT_EQ(motion.world_from_base(0.5).translation().z(), 0.0);
 }
 
+TEST(VehicleMotion, TurnsInPlaceAtItsRateAndDrivesOnlyForward) {
+  const DrivenPath path = drive(simulated_world::campus_roads(1),
+                                {"test", {"gymnasium", "laboratory", "dormitory"}, ""}, 0.0, Steering::kDifferential);
+  ASSERT_FALSE(path.turns_in_place.empty());
+  MotionParameters parameters;
+  parameters.vibration = 0.0;
+  const VehicleMotion motion(path, Terrain(1, 0.0), parameters, 1);
+  double turned_standing = 0.0, turned_driving = 0.0, fastest = 0.0;
+  constexpr double kStep_s = 0.01;
+  for (double t = kStep_s; t + kStep_s < motion.duration_s(); t += kStep_s) {
+    const Eigen::Isometry3d moved = motion.world_from_base(t - kStep_s).inverse() * motion.world_from_base(t);
+    const double turned = heading_of(moved), speed = moved.translation().norm() / kStep_s;
+    EXPECT_NEAR(moved.translation().x(), moved.translation().norm(), 1e-6);
+    fastest = std::max(fastest, std::abs(turned) / kStep_s);
+    (speed < 1e-9 ? turned_standing : turned_driving) += turned;
+  }
+  const auto way = [&](std::size_t from) -> Eigen::Vector2d { return path.points[from + 1] - path.points[from]; };
+  double expected = 0.0;
+  for (const std::size_t i : path.turns_in_place) {
+    const Eigen::Vector2d in = way(i - 1), out = way(i);
+    expected += std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+  }
+  EXPECT_GT(std::abs(expected), 1.0);
+  EXPECT_NEAR(turned_standing, expected, 0.01);
+  EXPECT_LT(std::abs(turned_driving), 0.3);  // the roads are curved
+  EXPECT_NEAR(fastest, parameters.turn_rate_rad_per_s, 0.02);
+  const Eigen::Vector2d end = motion.world_from_base(motion.duration_s()).translation().head<2>();
+  EXPECT_LT((end - path.points.back()).norm(), 1e-3);
+}
+
 TEST(VehicleMotion, RefusesWhatMakesNoSense) {
   MotionParameters slow;
   slow.cruise_speed_m_per_s = 2.0;
@@ -132,6 +163,9 @@ TEST(VehicleMotion, RefusesWhatMakesNoSense) {
   DrivenPath uneven = turning_path();
   uneven.along_m[5] += 1.0;
   EXPECT_THROW(VehicleMotion(uneven, Terrain(1, 0.0), {}, 1), std::invalid_argument);
+  DrivenPath outside = turning_path();
+  outside.turns_in_place = {outside.points.size()};
+  EXPECT_THROW(VehicleMotion(outside, Terrain(1, 0.0), {}, 1), std::invalid_argument);
 }
 
 }  // namespace

@@ -45,8 +45,9 @@ struct PanoramicCamera {
 };
 
 struct Vehicle {
-  bool has_body = true;        ///< whether its body is in the panoramas and casts a shadow
-  double speed_m_per_s = 5.0;  ///< on straight roads
+  bool has_body = true;         ///< whether its body is in the panoramas and casts a shadow
+  double speed_m_per_s = 5.0;   ///< on straight roads
+  bool turns_in_place = false;  ///< at junctions, as a robot with differential drive; else along arcs, as a car
 };
 
 /// The cameras on the vehicle (base_link: x forward, y left, z up, on the ground below the vehicle's centre).

@@ -17,6 +17,8 @@ struct MotionParameters {
   double min_speed_m_per_s = 3.0;
   double acceleration_m_per_s2 = 1.0;  ///< along the path, at most
   double standstill_s = 1.0;           ///< before the start
+  double turn_rate_rad_per_s = 0.8;    ///< when turning in place
+  double max_wait_s = 4.0;             ///< before turning in place: 0 to so long
   double vibration = 1.0;              ///< scale of the values below; 0: none
   double pitch_rms_rad = 0.004;        ///< suspension: 1-3 Hz
   double roll_rms_rad = 0.003;
@@ -48,16 +50,25 @@ class VehicleMotion {
     Eigen::Vector2d position;
     double heading_rad;
   };
-  Place place(double arc_m) const;
+  // A part of the path without a turn in place.
+  struct Line {
+    std::vector<Eigen::Vector2d> points;
+    double begin_m = 0.0, step_m = 0.0;
+    double from_s = 0.0;      // from the middle of the turn before it
+    double turned_rad = 0.0;  // in place, before it
+  };
+  Place place(double t_s) const;
   double sum(const std::vector<Wave>& waves, double t_s) const;
-  void plan_speed(const MotionParameters& parameters);
+  void plan(const MotionParameters& parameters, std::uint64_t seed);
+  void follow(const Line& line, const MotionParameters& parameters);
+  void turn_in_place(double angle_rad, double wait_s, double rate_rad_per_s, Line& next);
 
   DrivenPath path_;
   simulated_world::Terrain terrain_;
   double cruise_speed_m_per_s_;
-  double path_step_m_ = 0.0;
   double duration_s_ = 0.0;
-  std::vector<double> arc_m_;  // control points of a uniform cubic B-spline over time
+  std::vector<Line> lines_;
+  std::vector<double> arc_m_, turned_rad_;  // control points of uniform cubic B-splines over time
   std::vector<Wave> pitch_, roll_, height_;
 };
 
