@@ -46,6 +46,7 @@ CrossCheck::CrossCheck(const Parameters& parameters)
     : contradiction_sigmas_(parameters.contradiction_sigmas),
       patience_s_(parameters.patience_s),
       motion_(parameters.motion),
+      stereo_mounting_sigma_rad_(parameters.stereo_mounting_sigma_deg * vision::kDegree),
       direction_offset_(parameters.mounting_sigma_deg * vision::kDegree) {}
 
 /// If odometry follows something else, its speed changes abruptly, long before a panorama shows it.
@@ -153,14 +154,15 @@ std::vector<Doubt> CrossCheck::doubts(std::int64_t now_ns) const {
   return doubts;
 }
 
-/// One of the two cameras is rotated by that angle; which one is unknown. Without panoramas the stereo mount is
-/// trusted.
+/// One of the two cameras is rotated by that angle; which one is unknown. As long as the panoramas do not contradict it,
+/// the stereo mount is known at least as well as it was measured; without panoramas it is trusted.
 double CrossCheck::direction_sigma_rad() const {
   const DirectionOffset offset = latest_offset();
   if (!offset.is_measured()) return 0.0;
   const double off_rad = std::abs(offset.estimate_rad());
   const double turned_rad = off_rad > kNoStereoMount_rad ? 0.0 : std::max(0.0, off_rad - kAlike_rad);
-  return std::hypot(turned_rad, std::sqrt(offset.variance_rad2()));
+  const double noise_rad = std::sqrt(offset.variance_rad2());
+  return std::hypot(turned_rad, stereo_mounting_sigma_rad_ * noise_rad / std::hypot(stereo_mounting_sigma_rad_, noise_rad));
 }
 
 std::optional<MountDirection> CrossCheck::mount_direction() const {

@@ -81,7 +81,7 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
     smooth_ = odometry.odom_from_base;
   }
   last_raw_ = odometry.odom_from_base;
-  graph_.set_turn_errors(turn_error_.covariance());
+  graph_.set_turn_errors(turn_error_.errors());
   if (odometry.is_reliable) {
     unreliable_since_ns_.reset();
   } else {

@@ -18,6 +18,14 @@ constexpr double kMinStepVariance = 1e-12;  // for rounding errors
 // Waiting for the next pair would cost 40 ms; constant motion for that time is accurate to less than a millimetre.
 constexpr std::int64_t kAhead_ns = 5'000'000;
 
+/// Variance of the sum of an error along a way, relative to that of a constant error, if its correlation decreases
+/// exponentially.
+double persisting_share(double way_m, double memory_m) {
+  constexpr double kShort = 1e-4;  // without loss of digits
+  const double ways = memory_m > 0.0 ? way_m / memory_m : 0.0;
+  return ways < kShort ? 1.0 : 2.0 * (ways + std::expm1(-ways)) / (ways * ways);
+}
+
 double between(std::int64_t stamp_ns, std::int64_t from_ns, std::int64_t to_ns) {
   return static_cast<double>(stamp_ns - from_ns) / static_cast<double>(to_ns - from_ns);
 }
@@ -29,7 +37,7 @@ vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b,
 }
 
 vision::Matrix6d covariance_of_turns(const OdometrySample& a, const OdometrySample& b,
-                                     const Eigen::Matrix2d& turn_errors) {
+                                     const TurnErrors& errors) {
   const Eigen::Vector2d way = (b.pose.odom_from_base.translation() - a.pose.odom_from_base.translation()).head<2>();
   const auto by_error = [&](double turn_rad, const Eigen::Vector2d& heading_over_way) {
     vision::Vector6d moved;  // in the odometry's axes
@@ -37,9 +45,12 @@ vision::Matrix6d covariance_of_turns(const OdometrySample& a, const OdometrySamp
     return moved;
   };
   Eigen::Matrix<double, 6, 2> slope;
-  slope << by_error(b.turned_rad - a.turned_rad, b.turned_moment - a.turned_moment - a.turned_rad * way),
-      by_error(b.way_m - a.way_m, b.way_moment - a.way_moment - a.way_m * way);
-  return vision::rotate_covariance(a.pose.odom_from_base.linear().transpose(), slope * turn_errors * slope.transpose());
+  slope << by_error(b.unmeasured_turn_rad - a.unmeasured_turn_rad,
+                    b.turn_moment - a.turn_moment - a.unmeasured_turn_rad * way),
+      by_error(b.unmeasured_way_m - a.unmeasured_way_m, b.way_moment - a.way_moment - a.unmeasured_way_m * way);
+  slope.col(1) *= std::sqrt(persisting_share(b.way_m - a.way_m, errors.lean_memory_m));
+  return vision::rotate_covariance(a.pose.odom_from_base.linear().transpose(),
+                                   slope * errors.covariance * slope.transpose());
 }
 
 double yaw_of(const Eigen::Matrix3d& rotation) { return std::atan2(rotation(1, 0), rotation(0, 0)); }
@@ -93,9 +104,10 @@ std::optional<OdometrySample> OdometryBuffer::at(std::int64_t stamp_ns) const {
     return std::decay_t<decltype(from)>((1.0 - place->share) * from + place->share * to);
   };
   here.way_m = between(before.way_m, after.way_m);
-  here.turned_rad = between(before.turned_rad, after.turned_rad);
+  here.unmeasured_way_m = between(before.unmeasured_way_m, after.unmeasured_way_m);
+  here.unmeasured_turn_rad = between(before.unmeasured_turn_rad, after.unmeasured_turn_rad);
   here.way_moment = between(before.way_moment, after.way_moment);
-  here.turned_moment = between(before.turned_moment, after.turned_moment);
+  here.turn_moment = between(before.turn_moment, after.turn_moment);
   return here;
 }
 
@@ -170,6 +182,7 @@ void OdometryBuffer::apply_yaw_correction(std::int64_t from_ns, std::int64_t to_
     step.covariance.row(vision::kYaw) *= scale;
     step.covariance.col(vision::kYaw) *= scale;
     step.is_measured = true;
+    step.odometry_weight *= 1.0 + part * (variance_factor - 1.0);
   }
   compose_from(first);
 }
@@ -245,13 +258,16 @@ void OdometryBuffer::compose_from(std::size_t index) {
     entry.now.pose.odom_from_base.linear() = vision::nearest_rotation(entry.now.pose.odom_from_base.linear());
     entry.now.pose.covariance = vision::compose_covariance(before.pose.odom_from_base, before.pose.covariance,
                                                            entry.step.motion, entry.step.covariance);
-    const double length_m = entry.step.motion.translation().norm(), turn_rad = yaw_of(entry.step.motion.linear());
+    const double length_m = entry.step.motion.translation().norm();
+    const double unmeasured_m = entry.step.odometry_weight * length_m;
+    const double unmeasured_rad = entry.step.odometry_weight * yaw_of(entry.step.motion.linear());
     const Eigen::Vector2d way =
         (entry.now.pose.odom_from_base.translation() - before.pose.odom_from_base.translation()).head<2>();
     entry.now.way_m = before.way_m + length_m;
-    entry.now.turned_rad = before.turned_rad + turn_rad;
-    entry.now.way_moment = before.way_moment + (before.way_m + 0.5 * length_m) * way;
-    entry.now.turned_moment = before.turned_moment + (before.turned_rad + 0.5 * turn_rad) * way;
+    entry.now.unmeasured_way_m = before.unmeasured_way_m + unmeasured_m;
+    entry.now.unmeasured_turn_rad = before.unmeasured_turn_rad + unmeasured_rad;
+    entry.now.way_moment = before.way_moment + (before.unmeasured_way_m + 0.5 * unmeasured_m) * way;
+    entry.now.turn_moment = before.turn_moment + (before.unmeasured_turn_rad + 0.5 * unmeasured_rad) * way;
   }
 }
 

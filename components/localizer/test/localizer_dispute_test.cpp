@@ -282,6 +282,21 @@ TEST(LocalizerDispute, IsUncertainAcrossTheWayAsTheTwoMountsDisagree) {
   EXPECT_GT(vehicle.error_m(), 5.0);
 }
 
+TEST(LocalizerDispute, KnowsTheMountOfTheStereoCameraAsItWasMeasuredUnlessPanoramasKnowItBetter) {
+  const auto sigma_m = [](double mounting_deg, double seconds) {
+    auto parameters = Straight::parameters();
+    parameters.stereo_mounting_sigma_deg = mounting_deg;
+    Straight vehicle(parameters);
+    vehicle.direction_variance_rad2 = 0.05 * 0.05;  // of one panorama; at 20 m, twenty know it to 0.7 deg
+    vehicle.drive(seconds);
+    return vehicle.sigma_m();
+  };
+  EXPECT_NEAR(sigma_m(60.0, 4.0), 0.23, 0.03);
+  EXPECT_NEAR(sigma_m(0.3, 4.0), 0.10, 0.02);
+  EXPECT_LT(sigma_m(0.001, 4.0), 0.05);
+  EXPECT_NEAR(sigma_m(1.0, 40.0), sigma_m(60.0, 40.0), 0.03);
+}
+
 TEST(LocalizerDispute, LearnsHowAPanoramicCameraSitsThatWasNeverMeasured) {
   for (const double degrees : {-90.0, 35.0, 180.0}) {
     Straight vehicle;

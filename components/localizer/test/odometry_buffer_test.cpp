@@ -178,11 +178,46 @@ TEST(OdometryBuffer, TellsWhatSystematicErrorsOfTheTurnsDoToPositionAndHeading) 
   for (const auto& [scale, lean_rad_m] : {std::pair(1e-4, 0.0), std::pair(0.0, 1e-5), std::pair(1e-4, -1e-5)}) {
     const Eigen::Vector2d errors(scale, lean_rad_m);
     const auto off = vision::pose_error(moved(winding(scale, lean_rad_m)), moved(exact));
-    const vision::Matrix6d covariance = covariance_of_turns(a, b, errors * errors.transpose());
+    const vision::Matrix6d covariance = covariance_of_turns(a, b, {errors * errors.transpose(), 0.0});
     const vision::Matrix6d expected = off * off.transpose();
     EXPECT_LT((covariance - expected).norm(), 0.02 * expected.norm()) << scale << " " << lean_rad_m;
   }
-  EXPECT_EQ(covariance_of_turns(a, a, Eigen::Matrix2d::Identity()).norm(), 0.0);
+  EXPECT_EQ(covariance_of_turns(a, a, {Eigen::Matrix2d::Identity(), 10.0}).norm(), 0.0);
+}
+
+TEST(OdometryBuffer, SystematicErrorsOfTheTurnsActOnWhatNoCompassMeasured) {
+  auto chain = winding(0.0, 0.0);  // 100 m
+  const auto variance = [&](const Eigen::Vector2d& errors) {
+    const Eigen::Matrix2d covariance = errors.cwiseAbs2().asDiagonal();
+    return covariance_of_turns(*chain.at(0), chain.latest(), {covariance, 0.0})(vision::kYaw, vision::kYaw);
+  };
+  const double turned_rad = chain.latest().unmeasured_turn_rad;
+  EXPECT_NEAR(turned_rad, 2.42, 0.05);
+  EXPECT_NEAR(variance({0.0, 1e-4}), 1e-4, 1e-8);
+  const auto measure = [&](double odometry_weight) {
+    chain.apply_yaw_correction(50 * kEach_ns, 300 * kEach_ns, 0.0, odometry_weight);
+  };
+  measure(0.5);
+  EXPECT_NEAR(variance({0.0, 1e-4}), std::pow(75.0 * 1e-4, 2), 1e-8) << "half of 50 m, and 50 m";
+  measure(0.5);
+  EXPECT_NEAR(variance({0.0, 1e-4}), std::pow(62.5 * 1e-4, 2), 1e-8);
+  measure(0.0);
+  EXPECT_NEAR(variance({0.0, 1e-4}), std::pow(50.0 * 1e-4, 2), 1e-8);
+  chain.apply_yaw_correction(0, 500 * kEach_ns, 0.0, 0.1);
+  EXPECT_NEAR(variance({0.0, 1e-4}), std::pow(5.0 * 1e-4, 2), 1e-8);
+  EXPECT_LT(std::abs(chain.latest().unmeasured_turn_rad), 0.1 * turned_rad);
+}
+
+TEST(OdometryBuffer, ALeanThatChangesTurnsLessThanOneThatLasts) {
+  const auto chain = winding(0.0, 0.0);  // 100 m
+  const auto variance = [&](double memory_m) {
+    const Eigen::Matrix2d lean = Eigen::Vector2d(0.0, 1e-8).asDiagonal();
+    return covariance_of_turns(*chain.at(0), chain.latest(), {lean, memory_m})(vision::kYaw, vision::kYaw);
+  };
+  EXPECT_NEAR(variance(0.0), 1e-4, 1e-8) << "for ever";
+  EXPECT_NEAR(variance(1e7), 1e-4, 1e-8);
+  EXPECT_NEAR(variance(100.0), 2.0 * std::exp(-1.0) * 1e-4, 1e-8);
+  EXPECT_NEAR(variance(1.0), 0.02 * 0.99 * 1e-4, 1e-8) << "a hundred independent ones";
 }
 
 TEST(OdometryBuffer, CountsThatShareOfAVarianceThatACompassMeasuredToo) {

@@ -56,6 +56,14 @@ TEST(TurnErrorFilter, FollowsALeanThatChanges) {
   EXPECT_NEAR(drive(2e-4), 2e-4, 0.5e-4);  // after as long a way, although the mean of both is 3.5e-4
 }
 
+TEST(TurnErrorFilter, RemembersTheErrorOfTheLeanTheLessTheSurerItIs) {
+  TurnErrorFilter filter(0.003, 5e-4);
+  EXPECT_NEAR(filter.errors().lean_memory_m, 400.0, 1e-6);
+  for (int i = 0; i < 100; ++i) filter.add(0.0, 0.0, 4.0, 1e-6);
+  // Steady state of the filter: sigma = sqrt(walk * noise), memory = noise / walk, each per sqrt(m).
+  EXPECT_NEAR(filter.errors().lean_memory_m, std::sqrt(1e-6 / 4.0) / (0.05 * 5e-4), 3.0);
+}
+
 TEST(TurnErrorFilter, ExpectsTheLeanThatIsStatedBeforeTheFirstMeasurement) {
   TurnErrorFilter filter(0.003, 1e-4);
   filter.expect_lean(8e-4);

@@ -132,6 +132,7 @@ class CrossCheck {
 
   const double contradiction_sigmas_, patience_s_;
   const MotionPrior motion_;
+  const double stereo_mounting_sigma_rad_;
   DirectionOffset direction_offset_;
   double camera_turned_rad_ = 0.0;  // accumulated rotation of the panoramic camera on its mount
   Dispute turn_dispute_, way_dispute_;

@@ -52,8 +52,7 @@ class LocalPoseGraph {
   LocalPoseGraph(double start_sigma_m, double start_sigma_rad, double scale_sigma, const GnssParameters& fixes);
 
   void start(const OdometrySample& at);
-  /// Covariance of the systematic errors of the odometry's turns: see covariance_of_turns().
-  void set_turn_errors(const Eigen::Matrix2d& covariance) { turn_errors_ = covariance; }
+  void set_turn_errors(const TurnErrors& errors) { turn_errors_ = errors; }
   bool has_started() const noexcept { return !nodes_.empty(); }
   /// Number of nodes: start, landmarks, passes.
   std::size_t size() const noexcept { return nodes_.size(); }
@@ -153,7 +152,7 @@ class LocalPoseGraph {
 
   double start_sigma_m_, start_sigma_rad_, scale_sigma_;
   GnssParameters fix_parameters_;
-  Eigen::Matrix2d turn_errors_ = Eigen::Matrix2d::Zero();
+  TurnErrors turn_errors_;
   std::map<std::uint32_t, KnownLandmark> known_;
   std::vector<Node> nodes_;
   std::vector<std::int64_t> cuts_ns_;

@@ -51,6 +51,7 @@ struct Parameters {
   double turn_scale_sigma = 0.002;
   double turn_lean_sigma_deg_m = 0.012;
   double mounting_sigma_deg = 60.0;
+  double stereo_mounting_sigma_deg = 0.3;
   double steady_turn_share = 0.3;
   double doubtful_outlier_share = 0.02;
   double scale_sigma = 0.002;
@@ -103,6 +104,10 @@ struct Parameters {
           "/tf_static, before it is estimated from the driving direction; reduce it if the yaw is "
           "measured, so that moving objects at the start are not mistaken for it",
           0.0, 180.0);
+    field(&P::stereo_mounting_sigma_deg, "stereo_mounting_sigma_deg", "deg",
+          "standard deviation of the yaw of the stereo camera on the vehicle relative to /tf_static, which turns the "
+          "whole path; the panoramas show larger errors",
+          0.001, 180.0);
     field(&P::steady_turn_share, "steady_turn_share", "1",
           "fraction of the variance of odometry's turns that is used where the compass measures them, too, and all of "
           "odometry's points agree: the variance covers the drift over long paths, but next to the compass only some "

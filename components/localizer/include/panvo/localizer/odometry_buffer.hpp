@@ -6,6 +6,7 @@
 #include <deque>
 #include <optional>
 
+#include "panvo/localizer/turn_error_filter.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::localizer {
@@ -20,13 +21,15 @@ struct OdometryPose {
   double lean_sigma_rad_per_m = 0.0;  ///< of a constant turn per metre, not in the covariance; 0 if unknown
 };
 
-/// Odometry pose with what was travelled up to it.
+/// Odometry pose with what was travelled up to it. Systematic errors of the odometry's turns act only on that part of way
+/// and turns which no compass measured: each step counts by the weight that odometry has in its turn.
 struct OdometrySample {
   OdometryPose pose;
   double way_m = 0.0;
-  double turned_rad = 0.0;                               ///< left positive, not wrapped
-  Eigen::Vector2d way_moment = Eigen::Vector2d::Zero();  ///< integral of way_m over the path, in the odometry's frame
-  Eigen::Vector2d turned_moment = Eigen::Vector2d::Zero();  ///< the same of turned_rad
+  double unmeasured_way_m = 0.0;
+  double unmeasured_turn_rad = 0.0;  ///< left positive, not wrapped
+  /// Integrals of both over the path, in the odometry's frame.
+  Eigen::Vector2d way_moment = Eigen::Vector2d::Zero(), turn_moment = Eigen::Vector2d::Zero();
 };
 
 /// Rotation of the vehicle, left positive.
@@ -89,6 +92,7 @@ class OdometryBuffer {
     double widened = 1.0;      // factor on the variances other than yaw, relative to the odometry's
     double turn_share = 1.0;   // fraction of the yaw variance that counts beside a compass
     bool is_measured = false;  // by a compass: the yaw variance is that fraction
+    double odometry_weight = 1.0;  // of the odometry in the turn, the rest is a compass'
 
     double yaw_variance_rad2() const {
       return (is_measured ? 1.0 : turn_share) * covariance(vision::kYaw, vision::kYaw);
@@ -122,10 +126,8 @@ class OdometryBuffer {
 /// direction.
 vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double min_variance);
 
-/// Covariance of a_from_b, as above, by systematic errors of the turns: a share of each turn, and a lean per metre.
-/// `turn_errors`: covariance of both.
-vision::Matrix6d covariance_of_turns(const OdometrySample& a, const OdometrySample& b,
-                                     const Eigen::Matrix2d& turn_errors);
+/// Covariance of a_from_b, as above, by systematic errors of the turns.
+vision::Matrix6d covariance_of_turns(const OdometrySample& a, const OdometrySample& b, const TurnErrors& errors);
 
 /// The step with an additional turn to the left, half of it before and half after the translation.
 Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad);

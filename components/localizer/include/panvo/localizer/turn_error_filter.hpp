@@ -5,6 +5,12 @@
 
 namespace panvo::localizer {
 
+/// Uncertainty of the systematic errors of odometry's turns.
+struct TurnErrors {
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of a share of each turn, and of a lean per metre
+  double lean_memory_m = 0.0;                            ///< after this way, the error of the lean is another one
+};
+
 /// Systematic error of odometry's turns, which the compass shows: a share of each turn, as of an error of focal length
 /// or distortion, which the stereo pair does not notice and a panorama does not have; and a lean per metre, as of an
 /// error of the rectification, which changes slowly with the scene. Kalman filter with two states.
@@ -26,8 +32,11 @@ class TurnErrorFilter {
   double scale() const noexcept { return state_[0]; }
   double lean_rad_m() const noexcept { return state_[1]; }
   const Eigen::Matrix2d& covariance() const noexcept { return covariance_; }
+  TurnErrors errors() const;
 
  private:
+  double walk_per_m() const;
+
   double lean_sigma_rad_m_;
   bool has_learned_ = false;
   Eigen::Vector2d state_ = Eigen::Vector2d::Zero();  // scale, lean
