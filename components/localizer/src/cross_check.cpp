@@ -162,7 +162,8 @@ double CrossCheck::direction_sigma_rad() const {
   const double off_rad = std::abs(offset.estimate_rad());
   const double turned_rad = off_rad > kNoStereoMount_rad ? 0.0 : std::max(0.0, off_rad - kAlike_rad);
   const double noise_rad = std::sqrt(offset.variance_rad2());
-  return std::hypot(turned_rad, stereo_mounting_sigma_rad_ * noise_rad / std::hypot(stereo_mounting_sigma_rad_, noise_rad));
+  return std::hypot(turned_rad,
+                    stereo_mounting_sigma_rad_ * noise_rad / std::hypot(stereo_mounting_sigma_rad_, noise_rad));
 }
 
 std::optional<MountDirection> CrossCheck::mount_direction() const {

@@ -64,7 +64,6 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
   const auto taken = origin_.take(received);
   if (!taken.odometry) return refused(taken.reason);
   const OdometryPose& odometry = *taken.odometry;
-  const double doubt = std::min(1.0, odometry.outlier_share / parameters_.doubtful_outlier_share);
   const vision::Matrix6d least =
       chain_.empty() ? vision::Matrix6d(vision::Matrix6d::Zero())
                      : dead_reckoning_.step(vision::seconds(chain_.latest().pose.stamp_ns, odometry.stamp_ns),
@@ -72,7 +71,7 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
   if (odometry.lean_sigma_rad_per_m > 0.0) turn_error_.expect_lean(odometry.lean_sigma_rad_per_m);
   const Eigen::Isometry3d step = last_raw_.inverse() * odometry.odom_from_base;
   const double turn_error_rad = turn_error_.error_rad(yaw_of(step.linear()), step.translation().norm());
-  chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt), turn_error_rad, least);
+  chain_.add(odometry, turn_error_rad, least);
   check_.add_step(chain_);
   if (graph_.has_started()) {
     slew(turned_more(step, -turn_error_rad));

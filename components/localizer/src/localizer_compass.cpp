@@ -40,7 +40,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const double measured_variance = azimuth.variance_rad2 + missed_rad * missed_rad;
   const double clock_variance_s2 = clock_.variance_s2() + (is_clock_known() ? 0.0 : kUnknownClock_s * kUnknownClock_s);
   const double compass_variance = measured_variance + rate_change * rate_change * clock_variance_s2;
-  const double spread = compass_variance + turn->said_variance_rad2;
+  const double spread = compass_variance + turn->variance_rad2;
   const double excess =
       disagreement * disagreement / (spread * parameters_.contradiction_sigmas * parameters_.contradiction_sigmas);
   const double way_variance_m2 = gained_covariance(chain_.at(from_ns)->pose, chain_.at(to_ns)->pose, 0.0)
@@ -73,7 +73,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     lean = add_to_lean({.from_ns = from_ns,
                         .to_ns = to_ns,
                         .compass_rad = azimuth.change_rad,
-                        .odometry_variance_rad2 = turn->said_variance_rad2,
+                        .odometry_variance_rad2 = turn->variance_rad2,
                         .compass_variance_rad2 = compass_variance});
   }
   if (lean) {
@@ -81,7 +81,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   } else if (!is_contradicted) {
     turn_seen_ = TurnSeen{disagreement, turn->change_rad, chain_.at(to_ns)->way_m - chain_.at(from_ns)->way_m,
                           kScaleCaution * (compass_variance + turn->variance_rad2)};
-    clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->said_variance_rad2));
+    clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->variance_rad2));
   }
   azimuth_ns_ = to_ns;
   pending_yaw_correction_rad_ += vision::wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
@@ -119,7 +119,7 @@ vision::ClockSearch::Reference Localizer::turns_of_odometry() const {
     const auto turn = chain_.turn(from_ns, to_ns);
     const auto raw_rad = chain_.raw_turn(from_ns, to_ns);
     if (!turn || !raw_rad) return std::nullopt;
-    return vision::ClockSearch::Turn{*raw_rad, turn->said_variance_rad2};
+    return vision::ClockSearch::Turn{*raw_rad, turn->variance_rad2};
   };
 }
 
@@ -152,13 +152,17 @@ void Localizer::set_clock(double ahead_s, std::int64_t panorama_stamp_ns) {
   latest_ = localized(chain_.latest());
 }
 
-/// Turns against one reference panorama share its error: the latest, longest one replaces those before.
+/// Turns against one reference panorama share its error: the latest, longest one replaces those before. What it tells of
+/// the odometry's errors also corrects the path so far.
 void Localizer::take_reference(std::int64_t panorama_stamp_ns) {
   if (last_from_ns_ == panorama_stamp_ns) return chain_.revert();
-  chain_.mark(in_odometry_time(panorama_stamp_ns));
   if (turn_seen_) {
-    turn_error_.add(turn_seen_->disagreement_rad, turn_seen_->turn_rad, turn_seen_->way_m, turn_seen_->variance_rad2);
+    chain_.correct_turns(turn_error_.add(turn_seen_->disagreement_rad, turn_seen_->turn_rad, turn_seen_->way_m,
+                                         turn_seen_->variance_rad2));
+    graph_.refresh(chain_, INT64_MIN);
+    if (graph_.size() > 1) graph_.solve();
   }
+  chain_.mark(in_odometry_time(panorama_stamp_ns));
   turn_seen_.reset();
   check_.begin_reference();
   last_from_ns_ = panorama_stamp_ns;

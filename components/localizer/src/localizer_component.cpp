@@ -99,12 +99,8 @@ class LocalizerComponent final : public runtime::Component {
       }
       set_clock_back(back_ns);
     }
-    const OdometryPose received{stamp_ns,
-                                *pose,
-                                conversions::to_matrix(message.pose().covariance()),
-                                joined.quality.is_reliable,
-                                joined.quality.outlier_share,
-                                joined.quality.lean_sigma_rad_per_m};
+    const OdometryPose received{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()),
+                                joined.quality.is_reliable, joined.quality.lean_sigma_rad_per_m};
     {
       const vision::Stage stage(&timer_, "localize");
       const auto outcome = localizer_.add(received);

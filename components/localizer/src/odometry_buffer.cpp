@@ -36,8 +36,7 @@ vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b,
   return vision::step_covariance(a.odom_from_base, a.covariance, b.odom_from_base, b.covariance, min_variance);
 }
 
-vision::Matrix6d covariance_of_turns(const OdometrySample& a, const OdometrySample& b,
-                                     const TurnErrors& errors) {
+vision::Matrix6d covariance_of_turns(const OdometrySample& a, const OdometrySample& b, const TurnErrors& errors) {
   const Eigen::Vector2d way = (b.pose.odom_from_base.translation() - a.pose.odom_from_base.translation()).head<2>();
   const auto by_error = [&](double turn_rad, const Eigen::Vector2d& heading_over_way) {
     vision::Vector6d moved;  // in the odometry's axes
@@ -62,8 +61,7 @@ Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad) {
   return turned;
 }
 
-bool OdometryBuffer::add(const OdometryPose& odometry, double turn_share, double turn_error_rad,
-                         const vision::Matrix6d& least) {
+bool OdometryBuffer::add(const OdometryPose& odometry, double turn_error_rad, const vision::Matrix6d& least) {
   if (!odometry.odom_from_base.matrix().allFinite() || !odometry.covariance.allFinite()) return false;
   if (!entries_.empty() && odometry.stamp_ns <= entries_.back().raw.stamp_ns) return false;
   Entry entry;
@@ -73,7 +71,6 @@ bool OdometryBuffer::add(const OdometryPose& odometry, double turn_share, double
     const auto& before = entries_.back();
     entry.step.motion = turned_more(before.raw.odom_from_base.inverse() * odometry.odom_from_base, -turn_error_rad);
     entry.step.covariance = gained_covariance(before.raw, odometry, kMinStepVariance);
-    entry.step.turn_share = turn_share;
     entry.step.covariance = at_least(entry.step.covariance, least);
     entry.marked = entry.step;
   }
@@ -120,9 +117,7 @@ std::optional<Turn> OdometryBuffer::turn(std::int64_t from_ns, std::int64_t to_n
   for (std::size_t i = first_after(from_ns); i < entries_.size(); ++i) {
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
-    const Step& step = entries_[i].step;
-    turn.variance_rad2 += part * step.yaw_variance_rad2();
-    turn.said_variance_rad2 += part * step.yaw_variance_rad2() / step.turn_share;
+    turn.variance_rad2 += part * entries_[i].step.yaw_variance_rad2();
   }
   return turn;
 }
@@ -177,14 +172,24 @@ void OdometryBuffer::apply_yaw_correction(std::int64_t from_ns, std::int64_t to_
     Step& step = entries_[i].step;
     const double weight = part * step.yaw_variance_rad2() / stretch->variance_rad2;
     step.motion = turned_more(step.motion, weight * by_rad);
-    const double share = step.is_measured ? 1.0 : step.turn_share;
-    const double scale = std::sqrt(share * (1.0 + part * (variance_factor - 1.0)));
-    step.covariance.row(vision::kYaw) *= scale;
-    step.covariance.col(vision::kYaw) *= scale;
-    step.is_measured = true;
-    step.odometry_weight *= 1.0 + part * (variance_factor - 1.0);
+    const double kept = 1.0 + part * (variance_factor - 1.0);
+    step.covariance.row(vision::kYaw) *= std::sqrt(kept);
+    step.covariance.col(vision::kYaw) *= std::sqrt(kept);
+    step.odometry_weight *= kept;
   }
   compose_from(first);
+}
+
+void OdometryBuffer::correct_turns(const TurnErrorChange& learned) {
+  for (std::size_t i = 1; i < entries_.size(); ++i) {
+    auto& step = entries_[i].step;
+    const double ago_m = entries_.back().now.way_m - entries_[i].now.way_m;
+    const double same = learned.lean_memory_m > 0.0 ? std::exp(-ago_m / learned.lean_memory_m) : 1.0;
+    const double error_rad =
+        learned.scale * yaw_of(step.motion.linear()) + same * learned.lean_rad_m * step.motion.translation().norm();
+    step.motion = turned_more(step.motion, -step.odometry_weight * error_rad);
+  }
+  compose_from(1);
 }
 
 void OdometryBuffer::allow(std::int64_t from_ns, std::int64_t to_ns, double way_variance_m2, double yaw_variance_rad2) {

@@ -24,25 +24,26 @@ void TurnErrorFilter::expect_lean(double sigma_rad_m) {
   covariance_(1, 1) = sigma_rad_m * sigma_rad_m;
 }
 
-void TurnErrorFilter::add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2) {
-  if (std::abs(turn_rad) < kMinTurn_rad && way_m < kMinWay_m) return;
+TurnErrorChange TurnErrorFilter::add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2) {
+  if (std::abs(turn_rad) < kMinTurn_rad && way_m < kMinWay_m) return {};
   has_learned_ = true;
   covariance_(1, 1) += walk_per_m() * way_m;
   const Eigen::Vector2d slope(-turn_rad, -way_m);  // odometry that turns more disagrees in the opposite direction
   const double spread = slope.dot(covariance_ * slope) + variance_rad2;
-  if (!(spread > 0.0) || disagreement_rad * disagreement_rad > kTurnOutlier * spread) return;
+  if (!(spread > 0.0) || disagreement_rad * disagreement_rad > kTurnOutlier * spread) return {};
+  const double memory_m = lean_memory_m();
   const Eigen::Vector2d gain = covariance_ * slope / spread;
   const double least = std::min(kMinScaleVariance, covariance_(0, 0));
-  state_ += gain * disagreement_rad;
+  const Eigen::Vector2d change = gain * disagreement_rad;
+  state_ += change;
   covariance_ -= gain * spread * gain.transpose();
   // Raising a variance leaves the matrix positive semidefinite.
   covariance_(0, 0) = std::max(covariance_(0, 0), least);
+  return {change[0], change[1], memory_m};
 }
 
 /// The lean is forgotten and learned at the same rate, in the long run.
-TurnErrors TurnErrorFilter::errors() const {
-  return {covariance_, walk_per_m() > 0.0 ? covariance_(1, 1) / walk_per_m() : 0.0};
-}
+double TurnErrorFilter::lean_memory_m() const { return walk_per_m() > 0.0 ? covariance_(1, 1) / walk_per_m() : 0.0; }
 
 /// Variance by which the lean changes.
 double TurnErrorFilter::walk_per_m() const { return std::pow(kLeanWalk * lean_sigma_rad_m_, 2); }

@@ -43,7 +43,7 @@ class GnssDrive {
     return now();
   }
 
-  OdometryPose now() const { return {stamp_ns(), odom_, covariance_, true, 0.0, kLean}; }
+  OdometryPose now() const { return {stamp_ns(), odom_, covariance_, true, kLean}; }
   std::int64_t stamp_ns() const { return static_cast<std::int64_t>(steps_) * kPeriod_ns; }
 
   GnssFix fix() {

@@ -56,7 +56,7 @@ TEST(LocalPoseGraph, RenewsTheCovariancesNearTheVehicleInALargeMap) {
   const auto at_metre = [](double x_m) {
     OdometrySample sample;
     sample.way_m = x_m;
-    sample.pose = {static_cast<std::int64_t>(x_m * 1e8), at_x(x_m), variance(0.01 * std::sqrt(x_m)), true, 0.0};
+    sample.pose = {static_cast<std::int64_t>(x_m * 1e8), at_x(x_m), variance(0.01 * std::sqrt(x_m)), true};
     return sample;
   };
   graph.start(at_metre(0.0));

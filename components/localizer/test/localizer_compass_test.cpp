@@ -62,12 +62,11 @@ struct OneStep {
   static constexpr double kSaid_rad2 = 1e-4;
   Localizer localizer;
 
-  explicit OneStep(double outlier_share) : localizer(parameters()) {
+  OneStep() : localizer(parameters()) {
     OdometryPose odometry;
     localizer.add(odometry);
     odometry.stamp_ns = kPeriod_ns;
     odometry.covariance = kSaid_rad2 * vision::Matrix6d::Identity();
-    odometry.outlier_share = outlier_share;
     localizer.add(odometry);
   }
 
@@ -75,8 +74,6 @@ struct OneStep {
 
   static Parameters parameters() {
     Parameters parameters = of_known_scale();
-    parameters.steady_turn_share = 0.25;
-    parameters.doubtful_outlier_share = 0.04;
     parameters.clock_sigma_s = 0.0;
     parameters.compass_turn_error_ratio = 0.0;
     parameters.compass_correlation_ratio = 1.0;
@@ -85,28 +82,19 @@ struct OneStep {
   }
 };
 
-TEST(LocalizerWithCompass, HeedsTheCompassLessWhereAllPointsOfTheOdometryAgree) {
-  constexpr double kTurn_rad = 0.004, kCompass_rad2 = 0.25 * OneStep::kSaid_rad2;
-  const auto turned = [&](double outlier_share) {
-    OneStep step(outlier_share);
-    EXPECT_EQ(step.turn(kTurn_rad, kCompass_rad2), AzimuthUse::kFused);
-    const auto& pose = step.localizer.latest();
-    return std::pair(yaw_of(pose.map_from_base.linear()) / kTurn_rad, pose.covariance(5, 5) / OneStep::kSaid_rad2);
-  };
-  const auto [steady, steady_variance] = turned(0.0);
-  EXPECT_NEAR(steady, 0.5, 1e-4) << "a quarter of the variance, against a compass with a quarter";
-  EXPECT_NEAR(steady_variance, 0.125, 1e-4);
-  EXPECT_NEAR(turned(0.02).first, 0.625 / (0.625 + 0.25), 1e-4) << "halfway between a quarter and the full variance";
-  const auto [doubtful, doubtful_variance] = turned(0.04);
-  EXPECT_NEAR(doubtful, 0.8, 1e-4) << "the full variance";
-  EXPECT_NEAR(doubtful_variance, 0.2, 1e-4);
-  EXPECT_NEAR(turned(1.0).first, 0.8, 1e-4) << "outlier fraction unknown";
+TEST(LocalizerWithCompass, WeighsOdometryAndCompassByTheirVariances) {
+  constexpr double kTurn_rad = 0.004;
+  OneStep step;
+  EXPECT_EQ(step.turn(kTurn_rad, 0.25 * OneStep::kSaid_rad2), AzimuthUse::kFused);
+  const auto& pose = step.localizer.latest();
+  EXPECT_NEAR(yaw_of(pose.map_from_base.linear()) / kTurn_rad, 0.8, 1e-4);
+  EXPECT_NEAR(pose.covariance(5, 5) / OneStep::kSaid_rad2, 0.2, 1e-4);
 }
 
-TEST(LocalizerWithCompass, ContradictsOdometryByAllOfTheVarianceThatItSays) {
+TEST(LocalizerWithCompass, ContradictsOdometryThatTurnsFarOutsideItsVariance) {
   constexpr double kSaid_rad = 0.01, kSure_rad2 = 1e-8;
-  EXPECT_EQ(OneStep(0.0).turn(3.0 * kSaid_rad, kSure_rad2), AzimuthUse::kFused) << "six times the reduced sigma";
-  EXPECT_EQ(OneStep(0.0).turn(4.5 * kSaid_rad, kSure_rad2), AzimuthUse::kContradicted);
+  EXPECT_EQ(OneStep().turn(3.0 * kSaid_rad, kSure_rad2), AzimuthUse::kFused);
+  EXPECT_EQ(OneStep().turn(4.5 * kSaid_rad, kSure_rad2), AzimuthUse::kContradicted);
 }
 
 TEST(LocalizerWithCompass, TakesTheLastOfTheTurnsAgainstOnePanorama) {
@@ -235,6 +223,18 @@ TEST(LocalizerWithCompass, BelievesThatOdometryLeansAsMuchAsItStates) {
   };
   EXPECT_LT(std::abs(turned_without_compass(kSmallRig_rad_m)), 0.15 * 100 * kLeanPerMetre_rad);
   EXPECT_GT(turned_without_compass(kLargeRig_rad_m), 0.5 * 100 * kLeanPerMetre_rad);
+}
+
+TEST(LocalizerWithCompass, CorrectsThePathSoFarByWhatItLearnsOfTheOdometrysTurns) {
+  Parameters one_clock = of_known_scale();
+  one_clock.clock_sigma_s = 0.0;
+  constexpr double kLeanPerMetre_rad = 5e-4, kStated_rad_m = 7e-4;
+  constexpr int kMetres = 40;
+  Leaning leaning(one_clock, kLeanPerMetre_rad, kStated_rad_m);
+  leaning.drive(kMetres, true);
+  const auto& pose = leaning.localizer.latest().map_from_base;
+  EXPECT_LT(std::abs(yaw_of(pose.linear())), 0.05 * kMetres * kLeanPerMetre_rad);
+  EXPECT_LT(std::abs(pose.translation().y()), 0.05 * 0.5 * kMetres * kMetres * kLeanPerMetre_rad);
 }
 
 TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {

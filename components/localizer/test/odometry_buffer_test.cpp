@@ -185,6 +185,28 @@ TEST(OdometryBuffer, TellsWhatSystematicErrorsOfTheTurnsDoToPositionAndHeading) 
   EXPECT_EQ(covariance_of_turns(a, a, {Eigen::Matrix2d::Identity(), 10.0}).norm(), 0.0);
 }
 
+TEST(OdometryBuffer, CorrectsThePathByWhatIsLearnedOfItsTurns) {
+  constexpr double kScale = 1e-3, kLean_rad_m = 1e-4;
+  const auto latest = [](const OdometryBuffer& chain) { return chain.latest().pose.odom_from_base; };
+  const auto exact = winding(0.0, 0.0);
+  auto chain = winding(kScale, kLean_rad_m);
+  const double off = vision::pose_error(latest(chain), latest(exact)).norm();
+  chain.correct_turns({kScale, kLean_rad_m, 0.0});
+  EXPECT_GT(off, 0.1);
+  EXPECT_LT(vision::pose_error(latest(chain), latest(exact)).norm(), 0.01 * off);
+}
+
+TEST(OdometryBuffer, CorrectsALeanThatChangesWhereItWasLearnedAndNoCompassMeasured) {
+  constexpr double kLean_rad_m = 1e-4;
+  auto chain = winding(0.0, 0.0);  // 100 m
+  const auto yaw_rad = [&] { return yaw_of(chain.latest().pose.odom_from_base.linear()); };
+  chain.apply_yaw_correction(0, 250 * kEach_ns, 0.0, 0.25);
+  const double before_rad = yaw_rad();
+  chain.correct_turns({0.0, kLean_rad_m, 20.0});
+  const double expected_m = 20.0 * (1.0 - std::exp(-50.0 / 20.0)) + 0.25 * 20.0 * (std::exp(-2.5) - std::exp(-5.0));
+  EXPECT_NEAR(before_rad - yaw_rad(), kLean_rad_m * expected_m, 0.01 * kLean_rad_m * expected_m);
+}
+
 TEST(OdometryBuffer, SystematicErrorsOfTheTurnsActOnWhatNoCompassMeasured) {
   auto chain = winding(0.0, 0.0);  // 100 m
   const auto variance = [&](const Eigen::Vector2d& errors) {
@@ -218,24 +240,6 @@ TEST(OdometryBuffer, ALeanThatChangesTurnsLessThanOneThatLasts) {
   EXPECT_NEAR(variance(1e7), 1e-4, 1e-8);
   EXPECT_NEAR(variance(100.0), 2.0 * std::exp(-1.0) * 1e-4, 1e-8);
   EXPECT_NEAR(variance(1.0), 0.02 * 0.99 * 1e-4, 1e-8) << "a hundred independent ones";
-}
-
-TEST(OdometryBuffer, CountsThatShareOfAVarianceThatACompassMeasuredToo) {
-  auto chain = straight({});
-  OdometryPose pose;
-  for (int i = 1; i <= 4; ++i) {
-    pose.stamp_ns = i * kEach_ns;
-    pose.covariance(5, 5) = 1e-4 * i;
-    chain.add(pose, 0.25);
-  }
-  EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 4e-4, 1e-9) << "no compass yet";
-  EXPECT_NEAR(chain.turn(0, 2 * kEach_ns)->variance_rad2, 0.5e-4, 1e-9);
-  EXPECT_NEAR(chain.turn(0, 2 * kEach_ns)->said_variance_rad2, 2e-4, 1e-9);
-  chain.apply_yaw_correction(0, 2 * kEach_ns, 0.01, 0.5);
-  EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 2.25e-4, 1e-9) << "half of a quarter, and what was not measured";
-  chain.apply_yaw_correction(0, 2 * kEach_ns, 0.01, 1.0);
-  EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 2.25e-4, 1e-9) << "not twice";
-  EXPECT_NEAR(chain.turn(0, 4 * kEach_ns)->change_rad, 0.02, 1e-9);
 }
 
 TEST(OdometryBuffer, KnowsTheTwist) {

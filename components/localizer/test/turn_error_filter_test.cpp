@@ -56,6 +56,22 @@ TEST(TurnErrorFilter, FollowsALeanThatChanges) {
   EXPECT_NEAR(drive(2e-4), 2e-4, 0.5e-4);  // after as long a way, although the mean of both is 3.5e-4
 }
 
+TEST(TurnErrorFilter, TellsByHowMuchAMeasurementChangedIt) {
+  TurnErrorFilter filter(0.003, 5e-4);
+  EXPECT_EQ(filter.add(0.001, 0.0, 0.1, 1e-6).lean_rad_m, 0.0) << "at standstill";
+  double scale = 0.0, lean_rad_m = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    const double memory_m = filter.errors().lean_memory_m;
+    const auto change = filter.add(0.001, 0.1, 4.0, 1e-6);
+    EXPECT_LT(change.lean_rad_m, 0.0) << "odometry turned too little to the left";
+    EXPECT_NEAR(change.lean_memory_m, memory_m + 4.0, 1e-9) << "before the measurement, after its way";
+    scale += change.scale;
+    lean_rad_m += change.lean_rad_m;
+  }
+  EXPECT_DOUBLE_EQ(scale, filter.scale());
+  EXPECT_DOUBLE_EQ(lean_rad_m, filter.lean_rad_m());
+}
+
 TEST(TurnErrorFilter, RemembersTheErrorOfTheLeanTheLessTheSurerItIs) {
   TurnErrorFilter filter(0.003, 5e-4);
   EXPECT_NEAR(filter.errors().lean_memory_m, 400.0, 1e-6);

@@ -52,8 +52,6 @@ struct Parameters {
   double turn_lean_sigma_deg_m = 0.012;
   double mounting_sigma_deg = 60.0;
   double stereo_mounting_sigma_deg = 0.3;
-  double steady_turn_share = 0.3;
-  double doubtful_outlier_share = 0.02;
   double scale_sigma = 0.002;
   double clock_sigma_s = 0.05;
   double patience_s = 1.0;
@@ -108,15 +106,6 @@ struct Parameters {
           "standard deviation of the yaw of the stereo camera on the vehicle relative to /tf_static, which turns the "
           "whole path; the panoramas show larger errors",
           0.001, 180.0);
-    field(&P::steady_turn_share, "steady_turn_share", "1",
-          "fraction of the variance of odometry's turns that is used where the compass measures them, too, and all of "
-          "odometry's points agree: the variance covers the drift over long paths, but next to the compass only some "
-          "seconds count",
-          0.001, 1.0);
-    field(&P::doubtful_outlier_share, "doubtful_outlier_share", "1",
-          "fraction of outliers from which the full variance is used: where so many points are "
-          "detected to move, others move undetected",
-          0.001, 1.0);
     field(&P::scale_sigma, "scale_sigma", "1",
           "standard deviation of the odometry's scale, constant and thus common to all landmarks: remainder of an aged "
           "stereo calibration that odometry compensates; included in the published covariance",

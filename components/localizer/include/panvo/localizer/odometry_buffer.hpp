@@ -17,7 +17,6 @@ struct OdometryPose {
   Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   bool is_reliable = true;            ///< false: extrapolated without measurement
-  double outlier_share = 1.0;         ///< fraction of outlier points, [0, 1]; 1 if unknown
   double lean_sigma_rad_per_m = 0.0;  ///< of a constant turn per metre, not in the covariance; 0 if unknown
 };
 
@@ -35,8 +34,7 @@ struct OdometrySample {
 /// Rotation of the vehicle, left positive.
 struct Turn {
   double change_rad = 0.0;
-  double variance_rad2 = 0.0;       ///< beside a compass: reduced by turn_share
-  double said_variance_rad2 = 0.0;  ///< as of the odometry
+  double variance_rad2 = 0.0;
 };
 
 /// Buffer of the recent odometry steps. Late information, such as another measurement of a turn, is applied where it
@@ -45,10 +43,10 @@ class OdometryBuffer {
  public:
   explicit OdometryBuffer(double history_s) : history_s_(history_s) {}
 
-  /// Appends a pose; false, without effect, if its stamp is not later than the last or it is not finite. `turn_share`:
-  /// fraction of the gained yaw variance that counts where a compass measures the turn, too; `turn_error_rad`: what
-  /// odometry turned too much since the last pose; `least`: lower bound of the step's covariance, in the vehicle's axes.
-  bool add(const OdometryPose& odometry, double turn_share = 1.0, double turn_error_rad = 0.0,
+  /// Appends a pose; false, without effect, if its stamp is not later than the last or it is not finite.
+  /// `turn_error_rad`: what odometry turned too much since the last pose; `least`: lower bound of the step's covariance,
+  /// in the vehicle's axes.
+  bool add(const OdometryPose& odometry, double turn_error_rad = 0.0,
            const vision::Matrix6d& least = vision::Matrix6d::Zero());
 
   bool empty() const noexcept { return entries_.empty(); }
@@ -74,6 +72,9 @@ class OdometryBuffer {
   /// multiplies the yaw variance.
   void apply_yaw_correction(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
 
+  /// Corrects all turns, as far as no compass measured them, by what has become known of the odometry's errors.
+  void correct_turns(const TurnErrorChange& learned);
+
   /// Adds variance to a stretch, distributed over the steps by time: to both axes of the plane, and to the yaw.
   void allow(std::int64_t from_ns, std::int64_t to_ns, double way_variance_m2, double yaw_variance_rad2);
 
@@ -89,14 +90,10 @@ class OdometryBuffer {
   struct Step {
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  // previous pose from this one
     vision::Matrix6d covariance = vision::Matrix6d::Zero();    // in the axes of the previous pose
-    double widened = 1.0;      // factor on the variances other than yaw, relative to the odometry's
-    double turn_share = 1.0;   // fraction of the yaw variance that counts beside a compass
-    bool is_measured = false;  // by a compass: the yaw variance is that fraction
+    double widened = 1.0;          // factor on the variances other than yaw, relative to the odometry's
     double odometry_weight = 1.0;  // of the odometry in the turn, the rest is a compass'
 
-    double yaw_variance_rad2() const {
-      return (is_measured ? 1.0 : turn_share) * covariance(vision::kYaw, vision::kYaw);
-    }
+    double yaw_variance_rad2() const { return covariance(vision::kYaw, vision::kYaw); }
   };
   struct Entry {
     OdometryPose raw;  // as received

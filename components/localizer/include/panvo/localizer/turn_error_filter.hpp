@@ -11,6 +11,12 @@ struct TurnErrors {
   double lean_memory_m = 0.0;                            ///< after this way, the error of the lean is another one
 };
 
+/// By how much a measurement changed the estimates, which also concerns the path so far.
+struct TurnErrorChange {
+  double scale = 0.0, lean_rad_m = 0.0;
+  double lean_memory_m = 0.0;  ///< the lean so far back was another one; 0: it does not change
+};
+
 /// Systematic error of odometry's turns, which the compass shows: a share of each turn, as of an error of focal length
 /// or distortion, which the stereo pair does not notice and a panorama does not have; and a lean per metre, as of an
 /// error of the rectification, which changes slowly with the scene. Kalman filter with two states.
@@ -24,7 +30,7 @@ class TurnErrorFilter {
 
   /// `disagreement_rad`: turn by panoramas minus turn by odometry between the same two times, the latter corrected by
   /// error_rad(); `turn_rad`, `way_m`: by odometry; `variance_rad2`: of the disagreement of exact odometry.
-  void add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2);
+  TurnErrorChange add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2);
 
   /// What odometry turns too much on a step.
   double error_rad(double turn_rad, double way_m) const noexcept { return state_[0] * turn_rad + state_[1] * way_m; }
@@ -32,10 +38,11 @@ class TurnErrorFilter {
   double scale() const noexcept { return state_[0]; }
   double lean_rad_m() const noexcept { return state_[1]; }
   const Eigen::Matrix2d& covariance() const noexcept { return covariance_; }
-  TurnErrors errors() const;
+  TurnErrors errors() const { return {covariance_, lean_memory_m()}; }
 
  private:
   double walk_per_m() const;
+  double lean_memory_m() const;
 
   double lean_sigma_rad_m_;
   bool has_learned_ = false;
