@@ -186,25 +186,25 @@ TEST(OdometryBuffer, TellsWhatSystematicErrorsOfTheTurnsDoToPositionAndHeading) 
 }
 
 TEST(OdometryBuffer, CorrectsThePathByWhatIsLearnedOfItsTurns) {
-  constexpr double kScale = 1e-3, kLean_rad_m = 1e-4;
+  constexpr double kScale = 1e-3, kLeanPerMetre_rad = 1e-4;
   const auto latest = [](const OdometryBuffer& chain) { return chain.latest().pose.odom_from_base; };
   const auto exact = winding(0.0, 0.0);
-  auto chain = winding(kScale, kLean_rad_m);
+  auto chain = winding(kScale, kLeanPerMetre_rad);
   const double off = vision::pose_error(latest(chain), latest(exact)).norm();
-  chain.correct_turns({kScale, kLean_rad_m, 0.0});
+  chain.correct_turns({kScale, kLeanPerMetre_rad, 0.0});
   EXPECT_GT(off, 0.1);
   EXPECT_LT(vision::pose_error(latest(chain), latest(exact)).norm(), 0.01 * off);
 }
 
 TEST(OdometryBuffer, CorrectsALeanThatChangesWhereItWasLearnedAndNoCompassMeasured) {
-  constexpr double kLean_rad_m = 1e-4;
+  constexpr double kLeanPerMetre_rad = 1e-4;
   auto chain = winding(0.0, 0.0);  // 100 m
   const auto yaw_rad = [&] { return yaw_of(chain.latest().pose.odom_from_base.linear()); };
   chain.apply_yaw_correction(0, 250 * kEach_ns, 0.0, 0.25);
   const double before_rad = yaw_rad();
-  chain.correct_turns({0.0, kLean_rad_m, 20.0});
+  chain.correct_turns({0.0, kLeanPerMetre_rad, 20.0});
   const double expected_m = 20.0 * (1.0 - std::exp(-50.0 / 20.0)) + 0.25 * 20.0 * (std::exp(-2.5) - std::exp(-5.0));
-  EXPECT_NEAR(before_rad - yaw_rad(), kLean_rad_m * expected_m, 0.01 * kLean_rad_m * expected_m);
+  EXPECT_NEAR(before_rad - yaw_rad(), kLeanPerMetre_rad * expected_m, 0.01 * kLeanPerMetre_rad * expected_m);
 }
 
 TEST(OdometryBuffer, SystematicErrorsOfTheTurnsActOnWhatNoCompassMeasured) {
