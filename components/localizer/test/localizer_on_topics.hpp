@@ -54,16 +54,15 @@ class LocalizerOnTopics : public ::testing::Test {
     for (int i = from; i < to; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), 1e-4 + 1e-4 * i);
   }
 
-  void publish_quality(int frame, bool is_reliable, double inlier_ratio) {
+  void publish_quality(int frame, bool is_reliable) {
     panvo_msgs::msg::OdometryQuality quality;
     quality.header().stamp(conversions::to_stamp(stamp(frame)));
     quality.reliable(is_reliable);
-    quality.inlier_ratio(inlier_ratio);
     harness_.publish(topics::kOdometryQuality, quality);
   }
   void drive_with_quality(int from, int to, bool is_reliable) {
     for (int i = from; i < to; ++i) {
-      publish_quality(i, is_reliable, 0.0);
+      publish_quality(i, is_reliable);
       drive(i, i + 1);
     }
   }
