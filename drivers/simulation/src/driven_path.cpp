@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 
 constexpr double kStep_m = 0.1;              // between the path's points
 constexpr double kMinRadius_m = 5.0;         // of turns
-constexpr double kStraight_rad = 0.7;        // a change of direction below it is no turn
+constexpr double kStraight_rad = 0.7;        // smaller changes of direction are driven as a curve
 constexpr double kMaxUsed = 0.45;            // fraction of a road that the turn at one end may use
 constexpr double kSmoothing_m = 1.2;         // standard deviation: curvature changes over about 4 m
 constexpr double kClearOfCrossing_m = 12.0;  // distance of the path's ends from the first and last junction

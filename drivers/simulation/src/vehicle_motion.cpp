@@ -147,9 +147,10 @@ void VehicleMotion::plan(const MotionParameters& parameters, std::uint64_t seed)
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (i > 0) {
       const auto& ended = lines_[i - 1].points;
-      const auto [_, in] = spline(ended, static_cast<double>(ended.size() - 1));
-      const auto [__, out] = spline(lines_[i].points, 0.0);
+      const Eigen::Vector2d in = spline(ended, static_cast<double>(ended.size() - 1)).first;
+      const Eigen::Vector2d out = spline(lines_[i].points, 0.0).first;
       const double angle = std::remainder(heading_of(out) - heading_of(in), 2.0 * std::numbers::pi);
+      lines_[i].turned_rad = lines_[i - 1].turned_rad;
       turn_in_place(angle, random.uniform(0.0, parameters.max_wait_s), parameters.turn_rate_rad_per_s, lines_[i]);
     }
     follow(lines_[i], parameters);
@@ -164,7 +165,7 @@ void VehicleMotion::plan(const MotionParameters& parameters, std::uint64_t seed)
 
 // Stands until the smoothing has ended, waits, and turns by `angle_rad` at a constant rate.
 void VehicleMotion::turn_in_place(double angle_rad, double wait_s, double rate_rad_per_s, Line& next) {
-  const double before_rad = (&next - 1)->turned_rad;
+  const double before_rad = next.turned_rad;
   const auto stands = static_cast<std::size_t>(std::ceil(wait_s / kTimeStep_s)) + 2 * kReach;
   const auto turns = static_cast<std::size_t>(std::ceil(std::abs(angle_rad) / (rate_rad_per_s * kTimeStep_s)));
   turned_rad_.resize(arc_m_.size() + stands, before_rad);
@@ -172,7 +173,7 @@ void VehicleMotion::turn_in_place(double angle_rad, double wait_s, double rate_r
     turned_rad_.push_back(before_rad + angle_rad * static_cast<double>(i) / static_cast<double>(turns));
   }
   next.from_s = kTimeStep_s * (static_cast<double>(arc_m_.size() + stands) + 0.5 * static_cast<double>(turns));
-  next.turned_rad = before_rad + angle_rad;
+  next.turned_rad += angle_rad;
   turned_rad_.resize(turned_rad_.size() + 2 * kReach, next.turned_rad);
   arc_m_.resize(turned_rad_.size(), next.begin_m);
 }
