@@ -16,13 +16,11 @@
 namespace panvo::runner {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::steady_clock;
-
-constexpr milliseconds kPollPeriod{5};
-// Our processes announce themselves twice per second and answer announcements; their endpoints follow within
+constexpr std::chrono::milliseconds kPollPeriod{5};
+// In polls, not by the clock: a process that was held up for as long would end its look before its announcement is
+// answered. Our processes announce themselves twice per second and answer announcements; their endpoints follow within
 // milliseconds.
-constexpr milliseconds kFirstLook{600}, kQuiet{100}, kMaxLook{2000};
+constexpr int kFirstLook = 120, kQuiet = 20, kMaxLook = 400;
 
 std::vector<std::string> taken_of(const std::vector<std::string>& wanted, const runtime::Graph& graph) {
   std::set<std::string> there;
@@ -33,15 +31,13 @@ std::vector<std::string> taken_of(const std::vector<std::string>& wanted, const 
 }
 
 std::vector<std::string> look(runtime::Bridge& bridge, const std::vector<std::string>& wanted) {
-  const auto start = steady_clock::now();
-  auto changed = start;
   runtime::Graph graph = bridge.graph();
-  for (auto now = start; now - start < kMaxLook; now = steady_clock::now()) {
+  for (int poll = 0, quiet = 0; poll < kMaxLook; ++poll, ++quiet) {
     if (auto taken = taken_of(wanted, graph); !taken.empty()) return taken;
-    if (now - start >= kFirstLook && now - changed >= kQuiet && is_complete(graph)) break;
+    if (poll >= kFirstLook && quiet >= kQuiet && is_complete(graph)) break;
     std::this_thread::sleep_for(kPollPeriod);
     runtime::Graph next = bridge.graph();
-    if (next.endpoints.size() != graph.endpoints.size() || next.nodes.size() != graph.nodes.size()) changed = now;
+    if (next.endpoints.size() != graph.endpoints.size() || next.nodes.size() != graph.nodes.size()) quiet = 0;
     graph = std::move(next);
   }
   return {};

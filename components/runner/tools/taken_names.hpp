@@ -16,7 +16,7 @@ class TakenNames {
  public:
   TakenNames(const runtime::DdsSettings& dds, std::vector<std::string> wanted);
 
-  /// Waits for the result, at most `kMaxLook`. Throws ConfigError with the taken names.
+  /// Waits for the result: two seconds at most, unless the process is held up. Throws ConfigError with the taken names.
   void refuse();
 
  private:
