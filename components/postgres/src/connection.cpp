@@ -244,7 +244,7 @@ Result Connection::query(const char* sql, std::span<const Value> parameters) {
                         sent.data_of.data(), sent.sizes.data(), sent.formats.data(), 1) == 0) {
     handle_->lose(trimmed(PQerrorMessage(handle_->open())));
   }
-  return Result(std::make_shared<Result::Content>(handle_->answer()));
+  return Result(std::make_shared<Result::Content>(Result::Content{handle_->answer()}));
 }
 
 void Connection::execute(const char* sql) {

@@ -44,6 +44,10 @@ bool send_by(Sender& sender, const std::vector<rtps::NetworkBuffer>& buffers, st
     return sender.send(buffers, size, begin, end, limit);
   }
 }
+#else
+namespace rtps {
+using eprosima::fastdds::rtps::LocatorsIterator;  // Clang does not find it in two namespaces
+}
 #endif
 
 /// A transport whose outgoing messages pass unchanged.
