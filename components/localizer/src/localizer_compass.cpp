@@ -19,7 +19,6 @@ constexpr double kNotableClock_s = 0.1;  // a vehicle moves half a metre in that
 constexpr double kStraight = 0.02;       // rad/s: another time makes no difference
 constexpr double kAgree = 2.0;           // standard deviations: turns at another time
 constexpr double kOtherClock = 2.0;      // standard deviations: the filter follows smaller differences
-constexpr double kScaleCaution = 4.0;    // compass errors are correlated over some seconds, e.g. in a bend
 
 }  // namespace
 
@@ -80,7 +79,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     straighten(*lean);
   } else if (!is_contradicted) {
     turn_seen_ = TurnSeen{disagreement, turn->change_rad, chain_.at(to_ns)->way_m - chain_.at(from_ns)->way_m,
-                          kScaleCaution * (compass_variance + turn->variance_rad2)};
+                          in_sums(compass_variance) + turn->variance_rad2};
     clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->variance_rad2));
   }
   azimuth_ns_ = to_ns;
@@ -200,8 +199,7 @@ void Localizer::inflate(std::int64_t from_ns, std::int64_t to_ns, double disagre
 void Localizer::fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2) {
   const auto turn = chain_.turn(from_ns, to_ns);
   if (!turn) return;
-  const double in_sums_rad2 = parameters_.compass_correlation_ratio * variance_rad2;
-  const double gain = turn->variance_rad2 / (turn->variance_rad2 + in_sums_rad2);
+  const double gain = turn->variance_rad2 / (turn->variance_rad2 + in_sums(variance_rad2));
   const double by_rad = gain * vision::wrapped(change_rad - turn->change_rad);
   chain_.apply_yaw_correction(from_ns, to_ns, by_rad, 1.0 - gain);
 }

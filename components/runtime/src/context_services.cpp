@@ -27,8 +27,9 @@ void Context::open_service(ServiceDescription service, ServiceHandler handler) {
   ServiceDirectory::Serve serve = [&worker, &port, waiting](interfaces::Bytes bytes, std::shared_ptr<Reply> reply) {
     const std::shared_ptr<void> place(nullptr, [waiting](void*) { --*waiting; });
     if (++*waiting > kMaxWaitingRequests) return worker.count_dropped(port);
-    worker.push(port, {.item = std::make_shared<WaitingRequest>(WaitingRequest{std::move(bytes), std::move(reply), place}),
-                       .stamp_ns = current_stamp_ns()});
+    worker.push(port,
+                {.item = std::make_shared<WaitingRequest>(WaitingRequest{std::move(bytes), std::move(reply), place}),
+                 .stamp_ns = current_stamp_ns()});
   };
   if (!state_->host.services.add(service, state_.get(), serve)) {  // as in ROS 2, two nodes may offer it
     log().warn(

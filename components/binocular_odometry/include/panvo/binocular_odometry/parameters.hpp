@@ -45,8 +45,8 @@ struct MotionParameters {
   int fixed_keyframes = 3;
   double disparity_offset_step_px = 0.004;
   double motion_error_ratio = 0.012;
-  double rotation_error_rad_per_m = 0.0003;
-  double rectification_error_px = 0.01;
+  double rotation_error_rad_per_m = 0.0002;
+  double rectification_error_px = 0.007;
   double keyframe_parallax_px = 15.0;
   double keyframe_shared_ratio = 0.75;
   double acceleration = 2.0;

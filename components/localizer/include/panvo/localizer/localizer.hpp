@@ -208,6 +208,9 @@ class Localizer {
   void straighten(const YawBiasDetector::Bias& lean);
   void inflate(std::int64_t from_ns, std::int64_t to_ns, double disagreement_rad);
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
+  double in_sums(double compass_variance_rad2) const {
+    return parameters_.compass_correlation_ratio * compass_variance_rad2;
+  }
   void slew(const Eigen::Isometry3d& step);
 
   const Parameters parameters_;

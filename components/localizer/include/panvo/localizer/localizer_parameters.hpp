@@ -47,7 +47,7 @@ struct Parameters {
   double lean_window_s = 8.0;
   double lean_sigmas = 3.0;
   double compass_turn_error_ratio = 0.007;
-  double compass_correlation_ratio = 4.0;
+  double compass_correlation_ratio = 2.0;
   double turn_scale_sigma = 0.002;
   double turn_lean_sigma_deg_m = 0.012;
   double mounting_sigma_deg = 60.0;
