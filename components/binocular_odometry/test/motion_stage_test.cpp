@@ -288,8 +288,9 @@ TEST(MotionStage, StatesALargerLeanForASmallerRig) {
     stereo.baseline_m = baseline_m;
     return MotionStage(stereo, {}).estimate(TrackedFrame{}).quality.lean_sigma_rad_per_m;
   };
-  EXPECT_NEAR(stated(400.0, 0.12), 0.01 / 48.0, 1e-12);
-  EXPECT_NEAR(stated(250.0, 0.06), 0.01 / 15.0, 1e-12);
+  const double error_px = MotionParameters{}.rectification_error_px;
+  EXPECT_NEAR(stated(400.0, 0.12), error_px / 48.0, 1e-12);
+  EXPECT_NEAR(stated(250.0, 0.06), error_px / 15.0, 1e-12);
 }
 
 TEST(MotionStage, HasNoPointsWithoutAMotion) {

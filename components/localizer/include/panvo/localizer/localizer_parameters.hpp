@@ -49,7 +49,7 @@ struct Parameters {
   double compass_turn_error_ratio = 0.007;
   double compass_correlation_ratio = 2.0;
   double turn_scale_sigma = 0.002;
-  double turn_lean_sigma_deg_m = 0.012;
+  double turn_lean_sigma_deg_m = 0.008;
   double mounting_sigma_deg = 60.0;
   double stereo_mounting_sigma_deg = 0.3;
   double scale_sigma = 0.002;
