@@ -172,9 +172,10 @@ class MotionStage::Implementation {
     result.odom_from_left = published_odom_from_left_;
     result.odom_from_left_covariance = published_covariance_;
     if (!frame.fault.empty()) return;
-    if (frame.matched < parameters_.min_inliers) {
-      result.quality.reason = std::to_string(frame.matched) + " matched features of " +
-                              std::to_string(parameters_.min_inliers) + " needed to start";
+    const int needed = parameters_.min_inliers + parameters_.min_inliers / 2;  // some are lost in the next frame
+    if (frame.matched < needed) {
+      result.quality.reason =
+          std::to_string(frame.matched) + " matched features of " + std::to_string(needed) + " needed to start";
       return;
     }
     result.quality.reliable = true;

@@ -293,6 +293,24 @@ TEST(MotionStage, StatesALargerLeanForASmallerRig) {
   EXPECT_NEAR(stated(250.0, 0.06), error_px / 15.0, 1e-12);
 }
 
+// Begun with just as many points as it needs, it loses the second image, and does not know the vehicle's speed in between.
+TEST(MotionStage, BeginsWithMorePointsThanItNeeds) {
+  constexpr double kSmall_m2 = 0.05 * 0.05;
+  const MotionParameters parameters;
+  DriveBehindACar drive;
+  MotionStage stage(kStereo, parameters, nullptr);
+  TrackedFrame poor = drive.frame(0);
+  poor.observations.resize(static_cast<std::size_t>(parameters.min_inliers));
+  poor.matched = parameters.min_inliers;
+  EXPECT_FALSE(stage.estimate(poor).quality.reliable);
+  TrackedFrame second = drive.frame(1);
+  second.observations.erase(second.observations.begin());
+  stage.estimate(second);
+  const auto third = stage.estimate(drive.frame(2));
+  EXPECT_TRUE(third.quality.reliable) << third.quality.reason;
+  EXPECT_LT(third.odom_from_left_covariance.diagonal().head<3>().maxCoeff(), kSmall_m2);
+}
+
 TEST(MotionStage, HasNoPointsWithoutAMotion) {
   DriveBehindACar drive;
   MotionStage stage(kStereo, {}, nullptr);

@@ -30,10 +30,10 @@ LateClient::LateClient(int domain, const std::string& service, const std::string
   auto& [participant, requests, replies] = *entities_;
   participant = DomainParticipantFactory::get_instance()->create_participant(static_cast<DomainId_t>(domain),
                                                                              PARTICIPANT_QOS_DEFAULT);
-  const auto topic = [&](const std::string& name, const std::string& part) {
+  const auto topic = [&, on = participant](const std::string& name, const std::string& part) {
     const auto type = dds::wire_type_name(service_type + part).value();
-    TypeSupport(new RawType(type)).register_type(participant);
-    return participant->create_topic(name, type, TOPIC_QOS_DEFAULT);
+    TypeSupport(new RawType(type)).register_type(on);
+    return on->create_topic(name, type, TOPIC_QOS_DEFAULT);
   };
   SubscriberQos shown_later = SUBSCRIBER_QOS_DEFAULT;
   shown_later.entity_factory().autoenable_created_entities = false;
