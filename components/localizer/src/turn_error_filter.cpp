@@ -9,8 +9,10 @@ namespace {
 
 constexpr double kMinTurn_rad = 0.02, kMinWay_m = 0.5;  // below both, other errors exceed their effect
 constexpr double kMinScaleVariance = 1e-6;              // the compass misses as much of a turn
-constexpr double kLeanWalk = 0.05;                      // per sqrt(m), share of the prior: other points are in view
-constexpr double kTurnOutlier = 4.0 * 4.0;              // squared standard deviations
+// What a lean turns until it is another one. It lasts while the same points are in view, and a camera with a smaller
+// baseline or focal length leans more, but measures only nearer ones: both by the same factor.
+constexpr double kLastingTurn_rad = 0.007;
+constexpr double kTurnOutlier = 4.0 * 4.0;  // squared standard deviations
 
 }  // namespace
 
@@ -46,6 +48,6 @@ TurnErrorChange TurnErrorFilter::add(double disagreement_rad, double turn_rad, d
 double TurnErrorFilter::lean_memory_m() const { return walk_per_m() > 0.0 ? covariance_(1, 1) / walk_per_m() : 0.0; }
 
 /// Variance by which the lean changes.
-double TurnErrorFilter::walk_per_m() const { return std::pow(kLeanWalk * lean_sigma_rad_m_, 2); }
+double TurnErrorFilter::walk_per_m() const { return std::pow(lean_sigma_rad_m_, 3) / kLastingTurn_rad; }
 
 }  // namespace panvo::localizer

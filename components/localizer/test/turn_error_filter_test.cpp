@@ -17,17 +17,22 @@ TEST(TurnErrorFilter, LearnsNothingAtStandstill) {
   EXPECT_NEAR(filter.covariance()(1, 1), 1e-8, 1e-16);
 }
 
+constexpr double kLastingTurn_rad = 0.007;  // of a lean, until it is another one
+
 TEST(TurnErrorFilter, TellsWhatExplainsTheDisagreementsAsSureAsItSays) {
-  constexpr double kSigma_rad = 7e-4, kWay_m = 5.0;
+  constexpr double kSigma_rad = 7e-4, kWay_m = 5.0, kLean = 1e-4;
+  const double change_rad_m = kLean * std::sqrt(kWay_m * kLean / kLastingTurn_rad);  // in one way
   double nees = 0.0;
   constexpr int kJourneys = 200;
   for (int journey = 0; journey < kJourneys; ++journey) {
     std::mt19937_64 random(static_cast<unsigned>(journey));
     std::normal_distribution<double> normal;
-    const double scale = 0.003 * normal(random), lean_rad_m = 1e-4 * normal(random);
-    TurnErrorFilter filter(0.003, 1e-4);
+    const double scale = 0.003 * normal(random);
+    double lean_rad_m = kLean * normal(random);
+    TurnErrorFilter filter(0.003, kLean);
     for (int i = 0; i < 30; ++i) {  // alternately left, right and straight
       const double turn = i % 3 == 0 ? -0.1 : i % 3 == 1 ? 0.1 : 0.0;
+      lean_rad_m += change_rad_m * normal(random);
       const double unexplained_rad = scale * turn + lean_rad_m * kWay_m - filter.error_rad(turn, kWay_m);
       filter.add(-unexplained_rad + kSigma_rad * normal(random), turn, kWay_m, kSigma_rad * kSigma_rad);
     }
@@ -73,11 +78,12 @@ TEST(TurnErrorFilter, TellsByHowMuchAMeasurementChangedIt) {
 }
 
 TEST(TurnErrorFilter, RemembersTheErrorOfTheLeanTheLessTheSurerItIs) {
-  TurnErrorFilter filter(0.003, 5e-4);
-  EXPECT_NEAR(filter.errors().lean_memory_m, 400.0, 1e-6);
+  constexpr double kLean = 1e-4;
+  TurnErrorFilter filter(0.003, kLean);
+  EXPECT_NEAR(filter.errors().lean_memory_m, kLastingTurn_rad / kLean, 1e-6);
   for (int i = 0; i < 100; ++i) filter.add(0.0, 0.0, 4.0, 1e-6);
   // Steady state of the filter: sigma = sqrt(walk * noise), memory = noise / walk, each per sqrt(m).
-  EXPECT_NEAR(filter.errors().lean_memory_m, std::sqrt(1e-6 / 4.0) / (0.05 * 5e-4), 3.0);
+  EXPECT_NEAR(filter.errors().lean_memory_m, std::sqrt(1e-6 / 4.0 * kLastingTurn_rad / std::pow(kLean, 3)), 3.0);
 }
 
 TEST(TurnErrorFilter, ExpectsTheLeanThatIsStatedBeforeTheFirstMeasurement) {
