@@ -102,8 +102,8 @@ std::vector<JoinedMaps> Evidence::joined_maps(const std::vector<const SharedMap*
   for (const auto* map : maps) by_id[map->id()] = map;
   std::vector<JoinedMaps> found;
   for (const auto& [pair, decision] : decisions_) {
-    const auto is_pair = [&pair](const auto& other) {
-      return std::minmax(other.first, other.second) == std::minmax(pair.first, pair.second);
+    const auto is_pair = [&joined = pair](const auto& other) {
+      return std::minmax(other.first, other.second) == std::minmax(joined.first, joined.second);
     };
     if (!decision.join.is_joined || std::any_of(left_out.begin(), left_out.end(), is_pair)) continue;
     found.push_back({by_id.at(pair.first), by_id.at(pair.second), decision.join.agreed});

@@ -158,7 +158,8 @@ CameraRays fisheye_rays(const FisheyeCamera& camera) {
     throw std::invalid_argument(
         fmt::format("fisheye: a field of view of {} rad must lie in (0, 2 pi]", camera.field_of_view_rad));
   }
-  const auto [k1, k2, k3, k4] = camera.distortion;
+  const double k1 = camera.distortion[0], k2 = camera.distortion[1], k3 = camera.distortion[2],
+               k4 = camera.distortion[3];
   const auto radius = [&](double t) {
     const double t2 = t * t;
     return t * (1.0 + t2 * (k1 + t2 * (k2 + t2 * (k3 + t2 * k4))));
