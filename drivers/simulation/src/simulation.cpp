@@ -114,7 +114,7 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
                               const Eigen::Isometry3d& base_from_camera, const SensorParameters& sensor,
                               std::string_view name) {
     const cv::Size size(rays.width, rays.height);
-    const auto adjusted = day.night ? at_night(sensor) : sensor;
+    const auto adjusted = parameters_.day.night ? at_night(sensor) : sensor;
     cameras.push_back({std::move(rays), base_from_camera, Sensor(adjusted, lens, size, Random(own, name).bits())});
   };
   if (stereo) {

@@ -12,8 +12,12 @@
 
 #define PANVO_PACKET_ISA 2
 #pragma GCC diagnostic ignored "-Wpsabi"
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,bmi2"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2,fma,bmi,bmi2")
+#endif
 namespace panvo::simulated_world::avx2 {
 #include "packet_math.inl"
 //
@@ -25,5 +29,9 @@ namespace panvo::simulated_world::avx2 {
 //
 #include "shade_packet.inl"
 }  // namespace panvo::simulated_world::avx2
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 #endif

@@ -12,8 +12,13 @@
 
 #define PANVO_PACKET_ISA 512
 #pragma GCC diagnostic ignored "-Wpsabi"
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,avx512cd,avx2,fma,bmi,bmi2"))), \
+                             apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512dq,avx512vl,avx512bw,avx512cd,avx2,fma,bmi,bmi2")
+#endif
 namespace panvo::simulated_world::avx512 {
 #include "packet_math.inl"
 //
@@ -25,5 +30,9 @@ namespace panvo::simulated_world::avx512 {
 //
 #include "shade_packet.inl"
 }  // namespace panvo::simulated_world::avx512
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 #endif
