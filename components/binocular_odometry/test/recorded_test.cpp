@@ -171,15 +171,16 @@ TEST(RecordedKitti03, ItsErrorLiesWithinItsCovarianceWhenCamerasLie) {
     int frames = 0, unreliable = 0;
     double sigma_m = 0.0;
     Eigen::Isometry3d first = Eigen::Isometry3d::Identity();
-    step_through_kitti_03({}, lie_with(lie), [&](const OdometryEstimate& estimate, const Eigen::Isometry3d& truth) {
-      if (frames++ == 0) first = truth;
-      unreliable += estimate.quality.reliable ? 0 : 1;
-      if (frames < 10) return;
-      const vision::Vector6d error = vision::pose_error(estimate.odom_from_left, first.inverse() * truth);
-      const auto& covariance = estimate.odom_from_left_covariance;
-      sigma_m = std::sqrt(covariance(0, 0) + covariance(2, 2));
-      EXPECT_LT(std::hypot(error.x(), error.z()), 3.0 * sigma_m) << name << ", " << estimate.stamp_ns;
-    });
+    step_through_kitti_03(
+        {}, lie_with(lie), [&, &lie_name = name](const OdometryEstimate& estimate, const Eigen::Isometry3d& truth) {
+          if (frames++ == 0) first = truth;
+          unreliable += estimate.quality.reliable ? 0 : 1;
+          if (frames < 10) return;
+          const vision::Vector6d error = vision::pose_error(estimate.odom_from_left, first.inverse() * truth);
+          const auto& covariance = estimate.odom_from_left_covariance;
+          sigma_m = std::sqrt(covariance(0, 0) + covariance(2, 2));
+          EXPECT_LT(std::hypot(error.x(), error.z()), 3.0 * sigma_m) << lie_name << ", " << estimate.stamp_ns;
+        });
     EXPECT_GE(unreliable, name == "gap" ? 1 : 39) << name;
     EXPECT_LE(unreliable, 41) << name;
     EXPECT_GT(sigma_m, 15.0) << name;

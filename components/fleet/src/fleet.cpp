@@ -63,12 +63,7 @@ void Fleet::begin() {
 }
 
 void Fleet::add_place(landmarks::PanoramicLandmark place) {
-  if (const auto pose = poses_.find(place.id); pose != poses_.end()) {
-    place.map_from_base = pose->second.map_from_base;
-    place.covariance = pose->second.covariance;
-  } else if (poses_.size() < kMaxEarly) {
-    poses_[place.id] = {place.id, place.map_from_base, place.covariance};
-  }
+  move_places({{place.id, place.map_from_base, place.covariance}});
   if (own_) {
     own_->add(std::move(place));
   } else if (early_.size() < kMaxEarly) {

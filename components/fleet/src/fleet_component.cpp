@@ -20,6 +20,7 @@
 #include "panvo/interfaces/fleet_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/landmarks/map_listener.hpp"
 #include "panvo/landmarks/panorama_level.hpp"
 #include "panvo/position_corrector/spilled_landmarks.hpp"
 #include "panvo/runtime/component.hpp"
@@ -82,13 +83,13 @@ class FleetComponent final : public runtime::Component {
         keypoints_(context.output(topics::kFleetKeypoints)),
         state_(context.output(topics::kFleetState)),
         pose_(context, parameters_.fleet_frame),
-        transforms_(context) {
+        transforms_(context),
+        map_(context, [this](const auto& moved) { fleet_.move_places(moved); }) {
     if (parameters_.robot.empty()) {
       throw runtime::ConfigError(context.name() + ": robot is empty: give each robot a name of its own, robot:=NAME");
     }
     context.set_background();
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
-    context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_odometry(*message); });
     context.input(topics::kLocalizationState, [this](const auto& message) { on_state(message->state()); });
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(message); });
@@ -107,21 +108,16 @@ class FleetComponent final : public runtime::Component {
   static constexpr int kStateTicks = 5;
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
-    const auto landmark = landmarks::to_landmark(message, settings_);
-    if (!landmark) {
+    const auto read = landmarks::to_landmark(message, settings_);
+    if (!read) {
       return context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {}; not shared",
-                                           landmark.reason());
+                                           read.reason());
     }
-    base_from_panorama_ = landmark->base_from_panorama;
-    own_keypoints_->put(landmark->id, landmark->keypoints);
-    fleet_.add_place(*landmark);
-  }
-
-  void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
-    const auto poses = landmarks::to_landmark_poses(message);
-    if (poses) return fleet_.move_places(*poses);
-    context_.log().warn_throttled(poses.reason(), "{} {}", context_.resolved_name(topics::kLandmarkPoses),
-                                  poses.reason());
+    auto landmark = *read;
+    map_.map().add(landmark);
+    base_from_panorama_ = landmark.base_from_panorama;
+    own_keypoints_->put(landmark.id, landmark.keypoints);
+    fleet_.add_place(std::move(landmark));
   }
 
   /// A pose that is not known in the own map says nothing of other maps.
@@ -294,6 +290,7 @@ class FleetComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::FleetState> state_;
   FleetPosePublisher pose_;
   conversions::TransformListener transforms_;
+  landmarks::MapListener map_;
 
   Eigen::Isometry3d base_from_panorama_ = Eigen::Isometry3d::Identity();
   landmarks::PanoramaLevel level_;

@@ -36,9 +36,14 @@ LandmarkBuilder::LandmarkBuilder(const BuilderParameters& parameters, std::uint6
       rule_(parameters.rule),
       describer_(parameters.description, seed) {}
 
-std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanorama& panorama) {
+std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanorama& panorama,
+                                                                landmarks::MapReplica& map) {
   const Eigen::Vector3d position = panorama.odom_from_base.translation();
-  if (last_position_) travelled_m_ += (position - *last_position_).norm();
+  if (last_position_) {
+    travelled_m_ += (position - *last_position_).norm();
+  } else {
+    rule_.begin(panorama.stamp_ns);
+  }
   last_position_ = position;
   map_from_odom_ = panorama.map_from_odom;
   keep(panorama);
@@ -46,15 +51,15 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
   std::vector<landmarks::PanoramicLandmark> built;
   const auto take = [&](const Kept& chosen, bool is_junction) {
     const Eigen::Vector3d place = map_from_odom_ * chosen.odom_from_base.translation();
-    if (!rule_.takes(place.head<2>(), chosen.travelled_m)) return;
-    if (auto landmark = build(chosen, is_junction)) built.push_back(std::move(*landmark));
+    if (!rule_.takes(map, place.head<2>(), chosen.travelled_m)) return;
+    if (auto landmark = build(chosen, is_junction, map)) built.push_back(std::move(*landmark));
   };
   for (const PassedJunction& junction : filter_.add(panorama.stamp_ns, position.head<2>(), view_.seen)) {
     take(nearest_to_stamp(junction.nearest_stamp_ns), true);
   }
   // by the distance rule, far enough back to have panoramas on both sides; not while a junction is pending
   const double back_m = travelled_m_ - parameters_.max_neighbour_distance_m;
-  if (!filter_.is_pending() && rule_.is_due(back_m)) take(nearest_to_travelled(back_m), false);
+  if (!filter_.is_pending() && rule_.is_due(map, back_m)) take(nearest_to_travelled(back_m), false);
   return built;
 }
 
@@ -102,11 +107,12 @@ std::vector<const LandmarkBuilder::Kept*> LandmarkBuilder::neighbours_of(const K
   return neighbours;
 }
 
-std::optional<landmarks::PanoramicLandmark> LandmarkBuilder::build(const Kept& chosen, bool is_junction) {
+std::optional<landmarks::PanoramicLandmark> LandmarkBuilder::build(const Kept& chosen, bool is_junction,
+                                                                   landmarks::MapReplica& map) {
   if (landmarks::find_fault(chosen.grey)) return std::nullopt;
   const vision::Stage all(observer_, "build");
   landmarks::PanoramicLandmark landmark;
-  landmark.id = rule_.next_id();
+  landmark.id = map.next_id();
   landmark.stamp_ns = chosen.stamp_ns;
   landmark.map_from_base = map_from_odom_ * chosen.odom_from_base;
   landmark.covariance = vision::rotate_covariance(map_from_odom_.linear(), chosen.covariance);
@@ -134,7 +140,7 @@ std::optional<landmarks::PanoramicLandmark> LandmarkBuilder::build(const Kept& c
     cv::imencode(".jpg", chosen.thumbnail, landmark.thumbnail,
                  {cv::IMWRITE_JPEG_QUALITY, parameters_.thumbnail_quality});
   }
-  rule_.set_landmark(landmark.id, landmark.map_from_base.translation().head<2>());
+  map.add(landmark);
   rule_.taken(chosen.travelled_m);
   return landmark;
 }

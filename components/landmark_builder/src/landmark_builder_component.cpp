@@ -16,6 +16,7 @@
 #include "panvo/landmark_builder/landmark_builder.hpp"
 #include "panvo/landmarks/description_settings.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/landmarks/map_listener.hpp"
 #include "panvo/landmarks/panorama_check.hpp"
 #include "panvo/landmarks/panorama_level.hpp"
 #include "panvo/runtime/component.hpp"
@@ -64,10 +65,10 @@ class LandmarkBuilderComponent final : public runtime::Component {
                                                static_cast<std::uint64_t>(parameters_.description_seed))),
         timer_(context.times()),
         landmarks_(context.output(topics::kLandmarks)),
-        transforms_(context) {
+        transforms_(context),
+        map_(context) {
     context.set_background();  // landmarks are not urgent, poses are
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
-    context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_enhanced(*message); });
     context.input(topics::kPanoramaTimeReference, [this](const auto& message) { on_time_reference(*message); });
     context.input(topics::kVehicleMask, [this](const auto& message) { on_vehicle_mask(*message); });
@@ -88,25 +89,14 @@ class LandmarkBuilderComponent final : public runtime::Component {
   static constexpr std::int64_t kMaxGap_ns = 1'000'000'000;
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
-    stamps_ns_[message.id()] = conversions::stamp_ns(message);
-    set_landmark(message.id(), message.pose().pose().position());
-  }
-
-  void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
-    const std::size_t count = std::min(message.ids().size(), message.poses().size());
-    for (std::size_t i = 0; i < count; ++i) set_landmark(message.ids()[i], message.poses()[i].pose().position());
-  }
-
-  void set_landmark(std::uint32_t id, const geometry_msgs::msg::Point& position) {
-    known_[id] = {position.x(), position.y()};
-    if (builder_) tell_builder(id);
-  }
-
-  /// A landmark stamped before this run's first odometry comes from an earlier one.
-  void tell_builder(std::uint32_t id) {
-    builder_->set_landmark(id, known_.at(id));
-    const auto stamp = stamps_ns_.find(id);
-    if (stamp != stamps_ns_.end() && first_ns_ && stamp->second < *first_ns_) builder_->set_earlier(id);
+    const auto pose = conversions::to_isometry(message.pose().pose());
+    if (!pose) return;  // the other nodes refuse it as well
+    landmarks::PanoramicLandmark landmark;
+    landmark.id = message.id();
+    landmark.stamp_ns = conversions::stamp_ns(message);
+    landmark.map_from_base = *pose;
+    landmark.covariance = conversions::to_matrix(message.pose().covariance());
+    map_.map().add(landmark);
   }
 
   void on_enhanced(const nav_msgs::msg::Odometry& message) {
@@ -144,7 +134,6 @@ class LandmarkBuilderComponent final : public runtime::Component {
     }
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (!odometry_.empty() && stamp_ns <= odometry_.back().stamp_ns) return;
-    if (!first_ns_) first_ns_ = stamp_ns;
     odometry_.push_back({stamp_ns, *pose, conversions::to_matrix(message.pose().covariance())});
     if (odometry_.size() > kMaxOdometry) odometry_.pop_front();
     work_off();
@@ -200,8 +189,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
           context_.resolved_name(topics::kPanorama), size_.width, size_.height, panorama.cols, panorama.rows);
     }
     last_stamp_ns_ = stamp_ns;
-    for (const auto& landmark :
-         builder_->step({stamp_ns, level_.level(panorama), pose->odom_from_base, pose->covariance, map_from_odom_})) {
+    for (const auto& landmark : builder_->step(
+             {stamp_ns, level_.level(panorama), pose->odom_from_base, pose->covariance, map_from_odom_}, map_.map())) {
       const auto points = std::count_if(landmark.keypoints.begin(), landmark.keypoints.end(),
                                         [](const auto& keypoint) { return keypoint.has_point; });
       context_.log().info("landmark {}: {}, {} keypoints, {} of them triangulated", landmark.id,
@@ -240,7 +229,6 @@ class LandmarkBuilderComponent final : public runtime::Component {
     }
     size_ = size;
     builder_->set_seen(level_.level_mask(seen_));
-    for (const auto& [id, position] : known_) tell_builder(id);
     return true;
   }
 
@@ -251,15 +239,13 @@ class LandmarkBuilderComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::PanoramicLandmark> landmarks_;
 
   conversions::TransformListener transforms_;
+  landmarks::MapListener map_;
   vision::PanoramaWatch watch_;
   std::optional<LandmarkBuilder> builder_;
   landmarks::PanoramaLevel level_;  // of the builder's panoramas
   cv::Size size_;
-  cv::Mat seen_;                                    // all but the vehicle; empty: unknown
-  std::map<std::uint32_t, Eigen::Vector2d> known_;  // all published landmarks, of any node
-  std::map<std::uint32_t, std::int64_t> stamps_ns_;
-  std::optional<std::int64_t> first_ns_;  // of the odometry
-  std::int64_t panorama_ahead_ns_ = 0;    // the panoramic camera's clock
+  cv::Mat seen_;                        // all but the vehicle; empty: unknown
+  std::int64_t panorama_ahead_ns_ = 0;  // the panoramic camera's clock
   std::deque<Odometry> odometry_;
   Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<std::shared_ptr<const sensor_msgs::msg::Image>> waiting_;

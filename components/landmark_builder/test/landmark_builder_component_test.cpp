@@ -217,18 +217,22 @@ TEST_F(LandmarkBuilderComponent, PlacesLandmarksWhereTheLocalizerSaysThatTheVehi
 TEST_F(LandmarkBuilderComponent, TakesNoticeOfLandmarksThatWereMoved) {
   load();
   publish_mounting();
-  panvo_msgs::msg::PanoramicLandmark earlier;
-  earlier.id(12);
-  earlier.histogram({1.0F});
-  earlier.pose().pose().position().x(500.0);
-  harness_.publish(topics::kLandmarks, earlier);
-  panvo_msgs::msg::LandmarkPoses moved;  // moves it to the crossing
-  moved.ids({12});
-  moved.poses().resize(1);
-  moved.poses()[0].pose().position().x(3.0);
+  panvo_msgs::msg::PanoramicLandmark first, second;
+  first.id(12);
+  first.histogram({1.0F});
+  first.pose().pose().position().x(500.0);
+  second = first;
+  second.id(13);
+  panvo_msgs::msg::LandmarkPoses moved;  // puts the second at the crossing
+  moved.ids({12, 13});
+  moved.poses().resize(2);
+  moved.poses()[0].pose().position().x(400.0);
+  moved.poses()[1].pose().position().x(3.0);
+  harness_.publish(topics::kLandmarks, first);
   harness_.publish(topics::kLandmarkPoses, moved);
+  harness_.publish(topics::kLandmarks, second);  // older than its pose, although it comes later
   drive();
-  EXPECT_THAT(landmarks_, SizeIs(1));  // only the published one
+  EXPECT_THAT(landmarks_, SizeIs(2));  // only the published ones
 }
 
 TEST_F(LandmarkBuilderComponent, RefusesAParameterOutOfItsRange) {

@@ -21,12 +21,18 @@ PosedPanorama posed(const PaintedTown& town, double x) {
 }
 
 std::vector<landmarks::PanoramicLandmark> drive(LandmarkBuilder& builder, const PaintedTown& town, double from,
-                                                double to) {
+                                                double to, landmarks::MapReplica map = {}) {
   std::vector<landmarks::PanoramicLandmark> all;
   for (double x = from; x < to; x += 1.0) {
-    for (auto& landmark : builder.step(posed(town, x))) all.push_back(std::move(landmark));
+    for (auto& landmark : builder.step(posed(town, x), map)) all.push_back(std::move(landmark));
   }
   return all;
+}
+
+landmarks::MapReplica map_with(std::uint32_t id, const Eigen::Vector3d& position) {
+  landmarks::MapReplica map;
+  map.move({{id, Eigen::Isometry3d(Eigen::Translation3d(position))}});
+  return map;
 }
 
 /// No landmark at the start of the drive.
@@ -89,16 +95,16 @@ TEST(LandmarkBuilder, MakesNoneWhereThePlaceWasRecognised) {
 
 TEST(LandmarkBuilder, MakesNoneBesideOneThatIsThere) {
   LandmarkBuilder builder = make_builder();
-  builder.set_landmark(5, {2.0, 4.0});
-  EXPECT_THAT(drive(builder, PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI}), -30.0, 25.0), IsEmpty());
+  EXPECT_THAT(
+      drive(builder, PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI}), -30.0, 25.0, map_with(5, {2.0, 4.0, 0.0})),
+      IsEmpty());
 }
 
 TEST(LandmarkBuilder, MakesOneByDistanceWhereThereIsNoJunction) {  // [Lu2015 4.1]
   BuilderParameters parameters;
   parameters.rule.max_spacing_m = 20.0;
   LandmarkBuilder builder = make_builder(parameters);
-  builder.set_landmark(5, {-200.0, 0.0});
-  const auto built = drive(builder, PaintedTown::star({0.0, M_PI}), -30.0, 18.0);
+  const auto built = drive(builder, PaintedTown::star({0.0, M_PI}), -30.0, 18.0, map_with(5, {-200.0, 0.0, 0.0}));
   ASSERT_THAT(built, SizeIs(2));
   EXPECT_EQ(built[0].id, 6U);
   EXPECT_FALSE(built[0].is_junction);

@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +13,7 @@
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/landmarks/landmark_use.hpp"
+#include "panvo/landmarks/map_listener.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "store_writer.hpp"
@@ -69,7 +70,7 @@ class LandmarkStoreComponent final : public runtime::Component {
       return;
     }
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
-    context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
+    map_.emplace(context, [this](const auto& moved) { on_moved(moved); });
     if (!parameters_.read_only) {
       context.input(topics::kCorrectionOutcome, [this](const auto& message) { on_outcome(*message); });
       context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_odometry(*message); });
@@ -96,11 +97,6 @@ class LandmarkStoreComponent final : public runtime::Component {
   }
 
  private:
-  struct Known {
-    Eigen::Matrix4d map_from_base;
-    Eigen::Matrix<double, 6, 6> covariance;
-  };
-
   static constexpr double kMaxSigma_m = 2.0;  ///< of a pose that tells which landmark is passed
 
   /// Publishes what is stored; returns the store, to write to it.
@@ -115,7 +111,7 @@ class LandmarkStoreComponent final : public runtime::Component {
       session_ = store->next_session();
     }
     store->read_one_state([&] { publish(*store); });
-    context_.log().info("{}: {} landmarks loaded", store->name(), known_.size());
+    context_.log().info("{}: {} landmarks loaded", store->name(), stored_.size());
     return store;
   }
 
@@ -132,7 +128,8 @@ class LandmarkStoreComponent final : public runtime::Component {
       } catch (const StoreError& error) {
         return tell(error.what());
       }
-      remember({landmark.id, landmark.map_from_base, landmark.covariance});
+      map_->map().add(landmark);
+      remember(landmark.id);
       earlier_[landmark.id] = uses_[landmark.id];
       // The topic is latched, so subscribers may join later.
       output_.publish(to_message(landmark, store.settings(), parameters_.map_frame));
@@ -198,16 +195,22 @@ class LandmarkStoreComponent final : public runtime::Component {
     tell_notices();
     if (has_failed_) return;
     const auto settings = settings_from_text(message.settings());
-    const auto landmark = to_landmark(message, settings);
-    if (!landmark) {
+    const auto read = to_landmark(message, settings);
+    if (!read) {
       context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {}; it is not stored",
-                                    landmark.reason());
+                                    read.reason());
       return;
     }
+    auto landmark = *read;
+    const bool is_new_pose = map_->map().add(landmark);
     try {
       writer_->require(settings);
       settings_ = settings;
-      keep(*landmark);
+      if (!stored_.contains(landmark.id)) {
+        keep(landmark);
+      } else if (is_new_pose) {
+        move({map_->map().pose(landmark.id)});
+      }
     } catch (const StoreError& error) {
       fail(error);
     } catch (const std::invalid_argument& error) {
@@ -215,17 +218,12 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
   }
 
-  void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
+  void on_moved(std::vector<LandmarkPose> moved) {
     if (parameters_.read_only || has_failed_) return;
-    const auto poses = to_landmark_poses(message);
-    if (!poses) {
-      context_.log().warn_throttled(poses.reason(), "{} {}; landmark poses are unchanged",
-                                    context_.resolved_name(topics::kLandmarkPoses), poses.reason());
-      return;
-    }
+    std::erase_if(moved, [this](const auto& pose) { return !stored_.contains(pose.id); });
+    if (moved.empty()) return;
     try {
-      early_.clear();
-      move(*poses);
+      move(moved);
     } catch (const StoreError& error) {
       fail(error);
     } catch (const std::invalid_argument& error) {
@@ -233,15 +231,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
   }
 
-  void keep(PanoramicLandmark landmark) {
-    if (known_.contains(landmark.id)) {
-      const LandmarkPose pose{landmark.id, landmark.map_from_base, landmark.covariance};
-      return move(std::span(&pose, 1));
-    }
-    if (const auto early = early_.find(landmark.id); early != early_.end()) {
-      landmark.map_from_base = early->second.map_from_base;
-      landmark.covariance = early->second.covariance;
-    }
+  void keep(const PanoramicLandmark& landmark) {
     if (!make_room_for(landmark)) return;
     NewLandmark added{landmark, *settings_, std::nullopt};
     if (is_followed()) {
@@ -250,7 +240,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
     writer_->write(added);
     if (added.use) uses_[landmark.id] = *added.use;
-    remember({landmark.id, landmark.map_from_base, landmark.covariance});
+    remember(landmark.id);
   }
 
   /// Whether a landmark is kept beside those of earlier runs; removes the one that it replaces.
@@ -260,7 +250,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     std::vector<UseRules::Neighbour> neighbours;
     for (const auto& [id, use] : earlier_) {
       const Eigen::Vector3d between =
-          known_.at(id).map_from_base.topRightCorner<3, 1>() - landmark.map_from_base.translation();
+          map_->map().pose(id).map_from_base.translation() - landmark.map_from_base.translation();
       if (between.head<2>().norm() > rules_.same_place_m) continue;
       ids.push_back(id);
       neighbours.push_back({use, passes_.looks_different(use.session)});
@@ -272,37 +262,21 @@ class LandmarkStoreComponent final : public runtime::Component {
       writer_->write(RemovedLandmark{outdated});
       earlier_.erase(outdated);
       uses_.erase(outdated);
-      known_.erase(outdated);
+      stored_.erase(outdated);
     }
     if (!ids.empty()) context_.log().info("landmark {} is kept beside {} at its place", landmark.id, ids.front());
     return true;
   }
 
   /// In one transaction, so that the stored map is never partly optimised.
-  void move(std::span<const LandmarkPose> poses) {
-    std::vector<LandmarkPose> moved;
-    for (const auto& pose : poses) {
-      const auto known = known_.find(pose.id);
-      if (known == known_.end()) {
-        early_[pose.id] = pose;
-      } else if (is_moved(known->second, pose)) {
-        moved.push_back(pose);
-      }
-    }
-    if (moved.empty()) return;
-    writer_->write(MovedLandmarks{moved});
-    for (const auto& pose : moved) remember(pose);
+  void move(const std::vector<LandmarkPose>& poses) {
+    writer_->write(MovedLandmarks{poses});
+    for (const auto& pose : poses) remember(pose.id);
   }
 
-  static bool is_moved(const Known& known, const LandmarkPose& pose) {
-    constexpr double kRounding = 1e-9;  // rounding of rotations as quaternions: published poses come back
-    return (known.map_from_base - pose.map_from_base.matrix()).cwiseAbs().maxCoeff() > kRounding ||
-           known.covariance != pose.covariance;
-  }
-
-  void remember(const LandmarkPose& pose) {
-    known_.insert_or_assign(pose.id, Known{pose.map_from_base.matrix(), pose.covariance});
-    passes_.set_landmark(pose.id, pose.map_from_base.translation().head<2>(), uses_[pose.id].session);
+  void remember(std::uint32_t id) {
+    stored_.insert(id);
+    passes_.set_landmark(id, map_->map().pose(id).map_from_base.translation().head<2>(), uses_[id].session);
   }
 
   runtime::Context& context_;
@@ -312,8 +286,8 @@ class LandmarkStoreComponent final : public runtime::Component {
   StorePatience patience_;
   std::unique_ptr<StoreWriter> writer_;          // none: nothing is stored
   std::optional<DescriptionSettings> settings_;  // of the store, once there is one
-  std::map<std::uint32_t, Known> known_;
-  std::map<std::uint32_t, LandmarkPose> early_;  // poses of landmarks not received yet
+  std::optional<MapListener> map_;
+  std::set<std::uint32_t> stored_;
   UseRules rules_;
   PassCounter passes_;
   std::map<std::uint32_t, LandmarkUse> uses_;

@@ -16,7 +16,6 @@ namespace panvo::landmarks {
 namespace {
 
 using postgres::Connection;
-using postgres::DatabaseError;
 using postgres::Result;
 using postgres::Value;
 
@@ -26,7 +25,7 @@ constexpr std::int64_t kRowsAtOnce = 500, kWholeRowsAtOnce = 50;  // a whole lan
 /// Error of a statement, told as that of the store, with what a transaction must know to repeat it.
 class Failure : public StoreUnavailable {
  public:
-  Failure(const std::string& name, const DatabaseError& error, const void* store)
+  Failure(const std::string& name, const postgres::DatabaseError& error, const void* store)
       : StoreUnavailable(explain(name, error)), is_lost(error.is_lost()), is_conflict(error.is_conflict()), of(store) {}
 
   const bool is_lost, is_conflict;
@@ -254,7 +253,7 @@ class PostgresStore final : public StoreBackend {
   std::invoke_result_t<Action> told(Action action) const {
     try {
       return action();
-    } catch (const DatabaseError& error) {
+    } catch (const postgres::DatabaseError& error) {
       throw Failure(name_, error, this);
     }
   }
@@ -339,7 +338,7 @@ bool has_store(const StoreLocation& location, const StorePatience& patience) {
   try {
     Connection connection(location.text(), {patience.connect_s, patience.answer_s});
     return layout_of(connection) > 0;
-  } catch (const DatabaseError& error) {
+  } catch (const postgres::DatabaseError& error) {
     throw StoreUnavailable(explain(location.shown(), error));
   }
 }

@@ -47,7 +47,7 @@ geometry_msgs::msg::Point ahead(const geometry_msgs::msg::Pose& pose, double for
 
 void PlaceScene::add(const panvo_msgs::msg::PanoramicLandmark& landmark) {
   Place& place = places_[landmark.id()];
-  place.map_from_base = landmark.pose().pose();
+  if (!place.is_of_this_journey) place.map_from_base = landmark.pose().pose();  // else it has been moved since
   place.is_junction = landmark.is_junction();
   header_ = landmark.header();
   has_changed_ = true;

@@ -133,6 +133,7 @@ TEST_F(MarkersComponent, ShowsPlacesWhereTheyAreNow) {
   player_->landmark(0.0, 7, pose_at(1.0, 2.0, 0.0));
   player_->landmark(0.1, 9, pose_at(5.0, 2.0, M_PI / 2.0), true);
   player_->move(0.2, 7, pose_at(1.5, 2.5, 0.0));
+  player_->landmark(0.3, 7, pose_at(1.0, 2.0, 0.0));  // late, or again
   player_->pause_until(2.0);
   play();
   const Marker& places = marker("places");

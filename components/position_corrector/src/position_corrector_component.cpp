@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "odometry_trail.hpp"
 #include "panvo/conversions/image.hpp"
@@ -14,8 +15,8 @@
 #include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/description_settings.hpp"
-#include "panvo/landmarks/early_poses.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/landmarks/map_listener.hpp"
 #include "panvo/landmarks/panorama_check.hpp"
 #include "panvo/landmarks/panorama_level.hpp"
 #include "panvo/position_corrector/correction_messages.hpp"
@@ -92,13 +93,13 @@ class PositionCorrectorComponent final : public runtime::Component {
                                                static_cast<std::uint64_t>(parameters_.description_seed))),
         stored_(std::make_shared<SpilledLandmarks>(parameters_.spill_folder)),
         library_(stored_, describer_.basis().limits()),
+        map_(context, [this](const auto& moved) { on_moved(moved); }),
         matcher_(parameters_.matching, parameters_.keypoints, describer_, &timer_),
         match_(context.output(topics::kLandmarkMatch)),
         correction_(context.output(topics::kCorrection)),
         points_(context.output(kLandmarkPoints)),
         transforms_(context) {
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
-    context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kVehicleMask, [this](const auto& message) { on_vehicle_mask(*message); });
     context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(*message); });
@@ -108,10 +109,10 @@ class PositionCorrectorComponent final : public runtime::Component {
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     const auto read = landmarks::to_landmark(message, settings_);
     if (!read) return context_.log().warn_throttled(read.reason(), "a landmark {}; skipped", read.reason());
-    // a landmark that is received again has an updated pose
-    if (library_.set_pose(read->id, read->map_from_base, read->covariance)) return;
     auto landmark = *read;
-    early_poses_.apply(landmark);
+    map_.map().add(landmark);
+    // a landmark that is received again may have an updated pose
+    if (library_.set_pose(landmark.id, landmark.map_from_base, landmark.covariance)) return;
     stored_->put(landmark.id, landmark.keypoints, landmark.description);
     if (!stored_->problem().empty()) {
       context_.log().warn_throttled("spill", "{}: landmarks stay in memory", stored_->problem());
@@ -123,15 +124,8 @@ class PositionCorrectorComponent final : public runtime::Component {
     }
   }
 
-  void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
-    const auto poses = landmarks::to_landmark_poses(message);
-    if (!poses) {
-      return context_.log().warn_throttled(poses.reason(), "{} {}; landmark poses are unchanged",
-                                           context_.resolved_name(topics::kLandmarkPoses), poses.reason());
-    }
-    early_poses_.replace(*poses, [this](const landmarks::LandmarkPose& pose) {
-      return library_.set_pose(pose.id, pose.map_from_base, pose.covariance);
-    });
+  void on_moved(const std::vector<landmarks::LandmarkPose>& moved) {
+    for (const auto& pose : moved) library_.set_pose(pose.id, pose.map_from_base, pose.covariance);
   }
 
   void on_vehicle_mask(const sensor_msgs::msg::Image& message) {
@@ -243,6 +237,7 @@ class PositionCorrectorComponent final : public runtime::Component {
   const landmarks::DescriptionSettings settings_;
   std::shared_ptr<SpilledLandmarks> stored_;
   landmarks::LandmarkLibrary library_;
+  landmarks::MapListener map_;
   vision::PanoramaWatch watch_;
   LandmarkMatcher matcher_;
   runtime::Output<panvo_msgs::msg::LandmarkMatch> match_;
@@ -253,7 +248,6 @@ class PositionCorrectorComponent final : public runtime::Component {
   bool has_extrinsics_ = false;     // level_ has those of /tf_static
   landmarks::PanoramaLevel level_;  // of the matcher's panoramas
   cv::Mat seen_;                    // all but the vehicle; empty: unknown
-  landmarks::EarlyPoses early_poses_;
   OdometryTrail trail_;
 };
 

@@ -16,8 +16,8 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
-#include "panvo/landmarks/early_poses.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/landmarks/map_listener.hpp"
 #include "panvo/position_corrector/correction_messages.hpp"
 #include "panvo/position_corrector/match_messages.hpp"
 #include "panvo/runtime/component.hpp"
@@ -57,14 +57,14 @@ class StereoPlacesComponent final : public runtime::Component {
         landmarks_(context.output(topics::kLandmarks)),
         match_(context.output(topics::kLandmarkMatch)),
         correction_(context.output(topics::kCorrection)),
-        transforms_(context) {
+        transforms_(context),
+        map_(context, [this](const auto& moved) { on_moved(moved); }) {
     context.set_background();  // places are not urgent, poses are
     context.input(topics::kStereoLeftCameraInfo,
                   [this](const auto& info) { on_camera(left_, *info, topics::kStereoLeftCameraInfo); });
     context.input(topics::kStereoRightCameraInfo,
                   [this](const auto& info) { on_camera(right_, *info, topics::kStereoRightCameraInfo); });
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
-    context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_enhanced(*message); });
     context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     context.input_pair(topics::kStereoLeftImageRect, topics::kStereoRightImageRect,
@@ -110,13 +110,14 @@ class StereoPlacesComponent final : public runtime::Component {
       return context_.log().warn_throttled("landmark", "landmark {} {}; skipped", message.id(), read.reason());
     }
     early_.push_back(*read);
+    map_.map().add(early_.back());
     if (places_) take_early();
   }
 
   /// Landmarks that arrived before the calibration of the cameras.
   void take_early() {
     for (auto& landmark : std::exchange(early_, {})) {
-      early_poses_.apply(landmark);
+      map_.map().add(landmark);  // it may have moved meanwhile
       try {
         places_->add(std::move(landmark));
       } catch (const std::invalid_argument& error) {
@@ -125,14 +126,9 @@ class StereoPlacesComponent final : public runtime::Component {
     }
   }
 
-  void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
-    const auto poses = landmarks::to_landmark_poses(message);
-    if (!poses) {
-      return context_.log().warn_throttled(poses.reason(), "{} {}; landmark poses are unchanged",
-                                           context_.resolved_name(topics::kLandmarkPoses), poses.reason());
-    }
-    early_poses_.replace(*poses,
-                         [this](const landmarks::LandmarkPose& pose) { return places_ && places_->set_pose(pose); });
+  void on_moved(const std::vector<landmarks::LandmarkPose>& moved) {
+    if (!places_) return;
+    for (const auto& pose : moved) places_->set_pose(pose);
   }
 
   void on_enhanced(const nav_msgs::msg::Odometry& message) {
@@ -255,11 +251,11 @@ class StereoPlacesComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::PositionCorrection> correction_;
 
   conversions::TransformListener transforms_;
+  landmarks::MapListener map_;
   Camera left_, right_;
   cv::Size size_;
   std::optional<StereoPlaces> places_;
   std::vector<landmarks::PanoramicLandmark> early_;
-  landmarks::EarlyPoses early_poses_;
   std::deque<Odometry> odometry_;
   std::optional<Enhanced> enhanced_;
   std::deque<Pair> waiting_;

@@ -163,7 +163,7 @@ TEST(Texture, SurvivesAFootprintThatIsNotANumber) {
 TEST(Texture, RefusesASizeThatIsNoPowerOfTwo) {
   EXPECT_THROW(Texture(cv::Mat(12, 16, CV_8UC4, cv::Scalar())), std::invalid_argument);
   EXPECT_THROW(Texture(cv::Mat(16, 16, CV_8UC3, cv::Scalar())), std::invalid_argument);
-  EXPECT_THROW(Texture(cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(Texture{cv::Mat()}, std::invalid_argument);
 }
 
 }  // namespace

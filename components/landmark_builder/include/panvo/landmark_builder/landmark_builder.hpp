@@ -14,6 +14,7 @@
 #include "panvo/landmark_builder/landmark_rule.hpp"
 #include "panvo/landmark_builder/road_junction_detector.hpp"
 #include "panvo/landmarks/keypoints.hpp"
+#include "panvo/landmarks/map_replica.hpp"
 #include "panvo/landmarks/panorama_describer.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
 #include "panvo/vision/pose.hpp"
@@ -69,9 +70,9 @@ class LandmarkBuilder {
   LandmarkBuilder(const BuilderParameters& parameters, std::uint64_t seed, const Eigen::Isometry3d& base_from_panorama,
                   cv::Size panorama_size, vision::StageObserver* observer = nullptr);
 
-  /// Processes panoramas in order of time; returns the landmarks completed, with ids, each built from an earlier
-  /// panorama. Panoramas rejected by landmarks::find_fault must not be passed.
-  std::vector<landmarks::PanoramicLandmark> step(const PosedPanorama& panorama);
+  /// Processes panoramas in order of time; returns the landmarks completed, each built from an earlier panorama and
+  /// added to the map with its next id. Panoramas rejected by landmarks::find_fault must not be passed.
+  std::vector<landmarks::PanoramicLandmark> step(const PosedPanorama& panorama, landmarks::MapReplica& map);
 
   /// The panoramas so far were taken at other times: replaces the poses of those that are kept for later landmarks, by
   /// stamp, and forgets panoramas without one.
@@ -81,10 +82,6 @@ class LandmarkBuilder {
   /// Keypoints are not taken from what the vehicle covers: 0 in `seen` (CV_8UC1, any size, for the whole panorama).
   void set_seen(const cv::Mat& seen) { seen_ = seen; }
 
-  /// Adds or moves a landmark, e.g. of an earlier journey; position in the map, m.
-  void set_landmark(std::uint32_t id, const Eigen::Vector2d& position) { rule_.set_landmark(id, position); }
-  /// Reports that a landmark is of an earlier run.
-  void set_earlier(std::uint32_t id) { rule_.set_earlier(id); }
   /// Reports that a landmark was recognised at the last panorama.
   void recognised() { rule_.recognised(travelled_m_); }
 
@@ -105,7 +102,7 @@ class LandmarkBuilder {
   const Kept& nearest_to_stamp(std::int64_t stamp_ns) const;
   const Kept& nearest_to_travelled(double travelled_m) const;
   std::vector<const Kept*> neighbours_of(const Kept& chosen) const;
-  std::optional<landmarks::PanoramicLandmark> build(const Kept& chosen, bool is_junction);
+  std::optional<landmarks::PanoramicLandmark> build(const Kept& chosen, bool is_junction, landmarks::MapReplica& map);
 
   BuilderParameters parameters_;
   vision::StageObserver* observer_;

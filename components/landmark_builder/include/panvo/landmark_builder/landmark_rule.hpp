@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <set>
+
+#include "panvo/landmarks/map_replica.hpp"
 
 namespace panvo::landmark_builder {
 
@@ -42,29 +42,22 @@ class LandmarkRule {
  public:
   explicit LandmarkRule(const LandmarkRuleParameters& parameters) : parameters_(parameters) {}
 
-  /// Adds or moves a landmark, of this or of an earlier journey.
-  void set_landmark(std::uint32_t id, const Eigen::Vector2d& position);
-  /// Reports that a landmark is of an earlier run.
-  void set_earlier(std::uint32_t id) { earlier_.insert(id); }
+  /// Reports when the run begins: landmarks that are older are of earlier runs.
+  void begin(std::int64_t stamp_ns) { begin_ns_ = stamp_ns; }
   /// Reports that a landmark was built here.
   void taken(double travelled_m) { last_m_ = travelled_m; }
   /// Reports that a landmark was recognised here.
   void recognised(double travelled_m);
 
-  /// Whether a place that the vehicle passed at `place_travelled_m` along its path becomes a landmark.
-  bool takes(const Eigen::Vector2d& position, double place_travelled_m) const;
+  /// Whether a place in the map that the vehicle passed at `place_travelled_m` along its path becomes a landmark.
+  bool takes(const landmarks::MapReplica& map, const Eigen::Vector2d& position, double place_travelled_m) const;
   /// Whether the path since the last landmark, built or recognised, or since the start of a new map is long enough for
   /// a landmark without a junction.
-  bool is_due(double travelled_m) const;
-
-  /// Id of the next landmark: the largest known one, also of earlier journeys, plus 1.
-  std::uint32_t next_id() const { return positions_.empty() ? 1 : positions_.rbegin()->first + 1; }
-  bool has(std::uint32_t id) const { return positions_.contains(id); }
+  bool is_due(const landmarks::MapReplica& map, double travelled_m) const;
 
  private:
   LandmarkRuleParameters parameters_;
-  std::map<std::uint32_t, Eigen::Vector2d> positions_;
-  std::set<std::uint32_t> earlier_;
+  std::optional<std::int64_t> begin_ns_;
   double last_m_ = 0.0;
   std::optional<double> recognised_m_;
 };

@@ -22,13 +22,6 @@ namespace panvo::landmarks {
 
 class StoreBackend;
 
-/// Current pose of a landmark.
-struct LandmarkPose {
-  std::uint32_t id = 0;
-  Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-};
-
 /// Bytes used by all landmarks of a store together, by part.
 struct StoredBytes {
   std::uint64_t pose = 0;  ///< includes stamp, covariance and all other fields of fixed size

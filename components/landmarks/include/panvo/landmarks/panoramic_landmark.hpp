@@ -65,4 +65,11 @@ struct PanoramicLandmark {
   std::vector<std::uint8_t> thumbnail;  ///< JPEG, 540x270, for display; may be empty
 };
 
+/// Current pose of a landmark.
+struct LandmarkPose {
+  std::uint32_t id = 0;
+  Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
 }  // namespace panvo::landmarks
