@@ -21,30 +21,46 @@ LocalizedPose tracked(double sigma_m) {
   return pose;
 }
 
-TEST(ProtectionFactor, IsExceededAsOftenAsIsStated) {
-  // Student's t of two components: normal divided by the root of a chi-square over its degrees of freedom.
-  constexpr double kTail = 10.0, kRisk = 0.01;
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> normal;
-  std::chi_squared_distribution<double> chi_squared(kTail);
-  constexpr int kDraws = 200'000;
-  int exceeded = 0;
-  for (int i = 0; i < kDraws; ++i) {
-    const double scale = std::sqrt(kTail / chi_squared(random));
-    exceeded += std::hypot(scale * normal(random), scale * normal(random)) > protection_factor(kRisk, kTail) ? 1 : 0;
-  }
-  EXPECT_NEAR(static_cast<double>(exceeded) / kDraws, kRisk, 0.1 * kRisk);
+Eigen::Matrix2d ellipse(double major_m, double minor_m, double turned_rad = 0.0) {
+  const Eigen::Matrix2d axes = Eigen::Rotation2Dd(turned_rad).toRotationMatrix();
+  return axes * Eigen::Vector2d(major_m * major_m, minor_m * minor_m).asDiagonal() * axes.transpose();
 }
 
-TEST(ProtectionFactor, AlsoHoldsForNormalErrorsOfTwiceTheVariance) {
-  EXPECT_GE(protection_factor(1e-3, 10.0), std::sqrt(2.0) * std::sqrt(-2.0 * std::log(1e-3)));
+TEST(ProtectionRadius, IsExceededAsOftenAsIsStated) {
+  // Student's t of two components: normal divided by the root of a chi-square over its degrees of freedom.
+  constexpr double kTail = 10.0, kRisk = 0.01;
+  for (const double minor_m : {2.0, 1.0, 0.5, 0.0}) {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    std::chi_squared_distribution<double> chi_squared(kTail);
+    const double radius_m = protection_radius(ellipse(2.0, minor_m, 0.7), kRisk, kTail);
+    constexpr int kDraws = 200'000;
+    int exceeded = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      const double scale = std::sqrt(kTail / chi_squared(random));
+      exceeded += std::hypot(2.0 * scale * normal(random), minor_m * scale * normal(random)) > radius_m ? 1 : 0;
+    }
+    EXPECT_NEAR(static_cast<double>(exceeded) / kDraws, kRisk, 0.1 * kRisk) << minor_m;
+  }
+}
+
+TEST(ProtectionRadius, IsThatOfTablesForACircleAndForALine) {
+  EXPECT_NEAR(protection_radius(ellipse(1.0, 1.0), 1e-3, 10.0), std::sqrt(10.0 * (std::pow(1e-3, -0.2) - 1.0)), 1e-6);
+  EXPECT_NEAR(protection_radius(ellipse(1.0, 0.0), 1e-3, 10.0), 4.587, 1e-3);  // Student's t, two-sided
+  EXPECT_EQ(protection_radius(ellipse(0.0, 0.0), 1e-3, 10.0), 0.0);
+}
+
+TEST(ProtectionRadius, AlsoHoldsForNormalErrorsOfNearlyTwiceTheVariance) {
+  const double of_circle = std::sqrt(-2.0 * std::log(1e-3)), of_line = 3.2905;  // of a normal distribution
+  EXPECT_GE(protection_radius(ellipse(1.0, 1.0), 1e-3, 10.0), std::sqrt(1.9) * of_circle);
+  EXPECT_GE(protection_radius(ellipse(1.0, 0.0), 1e-3, 10.0), std::sqrt(1.9) * of_line);
 }
 
 TEST(Integrity, AllowsTheUseOfASurePoseOnly) {
   const auto sure = assess(tracked(0.2), {}, {});
   EXPECT_TRUE(sure.is_usable);
   EXPECT_EQ(sure.reason, "");
-  EXPECT_NEAR(sure.protection_level_m, 0.2 * protection_factor(1e-3, 10.0), 1e-12);
+  EXPECT_NEAR(sure.protection_level_m, protection_radius(ellipse(0.2, 0.2), 1e-3, 10.0), 1e-12);
   const auto unsure = assess(tracked(1.0), {}, {});
   EXPECT_FALSE(unsure.is_usable);
   EXPECT_THAT(unsure.reason, HasSubstr("alert limit of 2.00 m"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct IntegrityParameters {
     field(&P::risk, "risk", "1", "probability that the horizontal error exceeds the protection level", 1e-9, 0.5);
     field(&P::tail, "tail", "1",
           "degrees of freedom of the error distribution (Student's t): fewer mean more errors beyond the "
-          "covariance; at 10, the level for a risk of 0.001 also holds for normal errors with twice the variance",
+          "covariance; at 10, the level for a risk of 0.001 also holds for normal errors with 1.9 times the variance",
           2.0, 1000.0);
     field(&P::alert_limit_m, "alert_limit_m", "m", "largest protection level of a usable pose", 0.01, 1e4);
   }
@@ -32,11 +33,11 @@ struct Integrity {
   double protection_level_m = 0;  ///< horizontal
 };
 
-/// Number of standard deviations that a horizontal error exceeds with probability `risk`, if both components have a
-/// Student distribution with `tail` degrees of freedom: P(error > r sigma) = (1 + r^2 / tail)^(-tail / 2).
-double protection_factor(double risk, double tail);
+/// Radius that a horizontal error exceeds with probability `risk`, if it has a Student distribution with `tail` degrees
+/// of freedom and this covariance's ellipse. Where that is a circle, P(error > r sigma) = (1 + r^2 / tail)^(-tail / 2).
+double protection_radius(const Eigen::Matrix2d& covariance, double risk, double tail);
 
-/// The protection level is that of the covariance along its worst direction plus the offset of each doubt.
+/// The protection level is that of the covariance plus the offset of each doubt.
 Integrity assess(const LocalizedPose& pose, const std::vector<Doubt>& doubts, const IntegrityParameters& parameters);
 
 }  // namespace panvo::localizer
