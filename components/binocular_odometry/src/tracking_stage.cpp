@@ -10,6 +10,7 @@
 #include "coarse_motion.hpp"
 #include "coarse_turn.hpp"
 #include "descriptor_motion.hpp"
+#include "descriptor_tries.hpp"
 #include "disparity_offset.hpp"
 #include "front_end.hpp"
 #include "host_frame.hpp"
@@ -68,6 +69,7 @@ struct Followed {
   std::vector<FramePair> matches;  // by descriptors, if the tracks could not be followed
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
   bool is_measured = false;  // false: predicted only, without tracks
+  bool tried_descriptors = false;
   DisparityOffset offset;
 };
 
@@ -115,7 +117,7 @@ class TrackingStage::Implementation {
     const StereoPyramids images = build_pyramids(frame);
     describe(images);
     const std::int64_t interval_ns = interval_until(frame.stamp_ns);
-    Followed followed = follow(images, interval_ns);
+    Followed followed = follow(images, interval_ns, tries_.are_allowed(frame.stamp_ns));
     result.tracked = static_cast<int>(followed.tracks.size());
     const int seen_by_both = with_disparity(followed.tracks);
 
@@ -127,6 +129,7 @@ class TrackingStage::Implementation {
     result.detected = static_cast<int>(tracks.size());
     result.matched = with_disparity(tracks);
     result.fault = find_mismatch(images, result, tried, seen_by_both).value_or("");
+    if (followed.tried_descriptors) tries_.tried(frame.stamp_ns, !followed.is_measured || !result.fault.empty());
     if (!result.fault.empty()) return result;
 
     for (const Track& track : tracks) result.observations.push_back(track.seen);
@@ -179,10 +182,15 @@ class TrackingStage::Implementation {
   }
 
   /// Follows the tracks of the last good frame: first some of them, in a wide area; their motion predicts the others.
-  Followed follow(const StereoPyramids& images, std::int64_t interval_ns) const {
+  Followed follow(const StereoPyramids& images, std::int64_t interval_ns, bool may_match_descriptors) const {
     Followed followed;
     followed.offset = state_.offset;
     if (state_.tracks.empty()) return followed;
+    const auto match_by_descriptors = [&]() -> std::optional<DescriptorMotion::Found> {
+      if (!may_match_descriptors) return std::nullopt;
+      followed.tried_descriptors = true;
+      return match_descriptors(images);
+    };
     const TrackSearch search(stereo_, parameters_.min_correlation, images, state_.matcher, state_.offset.px(),
                              *front_end_);
     Eigen::Isometry3d expected = state_.motion_model.predict(interval_ns);
@@ -196,7 +204,7 @@ class TrackingStage::Implementation {
       attempt = try_motion(search, turn, state_.tracks.size());
     }
     if (!attempt.motion) {  // or the frames are too far apart to follow patches: match descriptors
-      if (auto found = match_descriptors(images)) {
+      if (auto found = match_by_descriptors()) {
         expected = found->current_from_previous;
         attempt = try_motion(search, expected, state_.tracks.size());
         if (!attempt.motion) attempt.motion = expected;
@@ -213,7 +221,7 @@ class TrackingStage::Implementation {
           search.search_nearby(std::move(attempt.tracks), *attempt.motion * state_.odom_from_left.inverse());
     }
     if (followed.matches.empty() && are_few(followed.tracks.size())) {
-      if (auto found = match_descriptors(images)) followed.matches = std::move(found->matches);
+      if (auto found = match_by_descriptors()) followed.matches = std::move(found->matches);
     }
     const Stage stage(observer_, "learn_offset");
     std::vector<FramePair> points = seen_twice(state_.tracks, followed.tracks);
@@ -310,6 +318,7 @@ class TrackingStage::Implementation {
   const int cell_px_;
 
   Arrivals arrivals_;
+  DescriptorTries tries_;
   TrackingState state_;
 };
 

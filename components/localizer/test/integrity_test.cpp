@@ -50,17 +50,19 @@ TEST(ProtectionRadius, IsThatOfTablesForACircleAndForALine) {
   EXPECT_EQ(protection_radius(ellipse(0.0, 0.0), 1e-3, 10.0), 0.0);
 }
 
-TEST(ProtectionRadius, AlsoHoldsForNormalErrorsOfNearlyTwiceTheVariance) {
+TEST(ProtectionRadius, AlsoHoldsForNormalErrorsOfALargerVariance) {
   const double of_circle = std::sqrt(-2.0 * std::log(1e-3)), of_line = 3.2905;  // of a normal distribution
-  EXPECT_GE(protection_radius(ellipse(1.0, 1.0), 1e-3, 10.0), std::sqrt(1.9) * of_circle);
-  EXPECT_GE(protection_radius(ellipse(1.0, 0.0), 1e-3, 10.0), std::sqrt(1.9) * of_line);
+  for (const auto& [tail, ratio] : {std::pair(10.0, 1.9), std::pair(30.0, 1.2)}) {
+    EXPECT_GE(protection_radius(ellipse(1.0, 1.0), 1e-3, tail), std::sqrt(ratio) * of_circle);
+    EXPECT_GE(protection_radius(ellipse(1.0, 0.0), 1e-3, tail), std::sqrt(ratio) * of_line);
+  }
 }
 
 TEST(Integrity, AllowsTheUseOfASurePoseOnly) {
   const auto sure = assess(tracked(0.2), {}, {});
   EXPECT_TRUE(sure.is_usable);
   EXPECT_EQ(sure.reason, "");
-  EXPECT_NEAR(sure.protection_level_m, protection_radius(ellipse(0.2, 0.2), 1e-3, 10.0), 1e-12);
+  EXPECT_NEAR(sure.protection_level_m, protection_radius(ellipse(0.2, 0.2), 1e-3, 30.0), 1e-12);
   const auto unsure = assess(tracked(1.0), {}, {});
   EXPECT_FALSE(unsure.is_usable);
   EXPECT_THAT(unsure.reason, HasSubstr("alert limit of 2.00 m"));

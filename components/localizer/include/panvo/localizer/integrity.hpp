@@ -11,17 +11,19 @@ namespace panvo::localizer {
 
 struct IntegrityParameters {
   double risk = 1e-3;
-  double tail = 10.0;
+  double tail = 30.0;
   double alert_limit_m = 2.0;
 
   template <class Field>
   static void describe(Field&& field) {
     using P = IntegrityParameters;
     field(&P::risk, "risk", "1", "probability that the horizontal error exceeds the protection level", 1e-9, 0.5);
-    field(&P::tail, "tail", "1",
-          "degrees of freedom of the error distribution (Student's t): fewer mean more errors beyond the "
-          "covariance; at 10, the level for a risk of 0.001 also holds for normal errors with 1.9 times the variance",
-          2.0, 1000.0);
+    field(
+        &P::tail, "tail", "1",
+        "degrees of freedom of the error distribution (Student's t): fewer mean more errors beyond the "
+        "covariance; at 30, the level for a risk of 0.001 also holds for normal errors with 1.2 times the variance, at "
+        "10 with 1.9 times",
+        2.0, 1000.0);
     field(&P::alert_limit_m, "alert_limit_m", "m", "largest protection level of a usable pose", 0.01, 1e4);
   }
 };
