@@ -17,7 +17,6 @@ constexpr int kRowMargin_px = 16;  // half-size template with its border
 constexpr double kHalfReach_px = 8.0, kFullReach_px = 3.0;
 constexpr double kPlaceVariance_px2 = 0.03 * 0.03;  // interpolation error of any point
 constexpr int kMaxMissed = 3;
-constexpr double kFiner = 0.6;      // width of a cell where corners are rare: as wide as a template
 constexpr double kSameSize = 0.01;  // relative; at 6 px, half a template, the shift is below pixel noise
 
 double wrapped(double u, int columns) { return u - columns * std::floor(u / columns); }
@@ -53,16 +52,9 @@ PointField::PointField(const RoundBand& reference, const PointParameters& parame
     : parameters_(parameters) {
   if (reference.pyramid.levels() < 2) return;
   reference_ = reference.pyramid[0];
-  take_corners(reference, parameters.spacing_px, seen);
-  if (points_.size() >= static_cast<std::size_t>(parameters.wanted)) return;
-  points_.clear();
-  take_corners(reference, static_cast<int>(kFiner * parameters.spacing_px), seen);
-}
-
-void PointField::take_corners(const RoundBand& reference, int cell_px, const cv::Mat& seen) {
-  const vision::CellGrid grid(reference.pyramid[0].size(), cell_px);
+  const vision::CellGrid grid(reference.pyramid[0].size(), parameters.spacing_px);
   for (const vision::Corner& corner :
-       vision::detect_corners(reference.pyramid, grid, parameters_.min_gradient, kRowMargin_px)) {
+       vision::detect_corners(reference.pyramid, grid, parameters.min_gradient, kRowMargin_px)) {
     const Eigen::Vector2d place = corner.position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
     if (place.x() < 0.0 || place.x() >= reference.columns || !is_solid(reference, corner.position)) continue;
     if (!is_seen(seen, place)) continue;

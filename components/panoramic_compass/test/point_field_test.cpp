@@ -84,22 +84,6 @@ TEST(PointField, FindsItsPointsBetweenPixelsAndOverTheSeam) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(found.size())), 0.15);
 }
 
-TEST(PointField, LooksMoreCloselyWhereCornersAreRare) {
-  const cv::Mat town = paint_panorama().rowRange(150, 294);
-  cv::Mat open_land(town.size(), town.type(), cv::Scalar(128));
-  const cv::Rect hedge(100, 60, 500, 20);  // all there is
-  town(hedge).copyTo(open_land(hedge));
-  const auto points_of = [](const cv::Mat& band, int wanted) {
-    PointParameters parameters;
-    parameters.wanted = wanted;
-    return PointField(RoundBand(band), parameters).size();
-  };
-  ASSERT_LT(points_of(open_land, 0), 150U);
-  EXPECT_GT(points_of(open_land, 150), 1.5 * static_cast<double>(points_of(open_land, 0)));
-  ASSERT_GE(points_of(town, 0), 150U);
-  EXPECT_EQ(points_of(town, 150), points_of(town, 0));
-}
-
 TEST(PointField, HasNoPointsInTheSky) {
   cv::Mat clouds(144, kColumns, CV_8UC1, cv::Scalar(200));
   cv::RNG random(11);

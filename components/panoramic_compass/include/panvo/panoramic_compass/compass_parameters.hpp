@@ -43,7 +43,6 @@ struct PointParameters {
   double top_deg = 40.0;
   double bottom_deg = 8.0;
   int spacing_px = 20;
-  int wanted = 150;
   double min_gradient = 2.0;
   double min_correlation = 0.8;
 
@@ -56,10 +55,6 @@ struct PointParameters {
           "lower edge of the band, below the horizon; further down is the vehicle itself", -5.0, 45.0);
     field(&P::spacing_px, "spacing_px", "px", "cell size, with one point per cell; the panorama has 1080 columns", 8,
           90);
-    field(&P::wanted, "wanted", "1",
-          "points of a reference panorama below which it gets cells of 0.6 times the size: in open land few cells have "
-          "a corner",
-          0, 1000);
     field(&P::min_gradient, "min_gradient", "grey levels/px",
           "minimum gradient of a point along its weakest direction, above the noise of an 8-bit image", 0.5, 50.0);
     field(&P::min_correlation, "min_correlation", "1", "minimum normalised correlation of a tracked point", 0.3, 1.0);

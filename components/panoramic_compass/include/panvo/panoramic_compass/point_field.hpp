@@ -42,7 +42,7 @@ bool is_seen(const cv::Mat& seen, const Eigen::Vector2d& in_band);
 class PointField {
  public:
   PointField() = default;
-  /// Takes the best corner of each cell, smaller ones where there are few, except in the sky, because clouds drift, and where the vehicle covers the view:
+  /// Takes the best corner of each cell, except in the sky, because clouds drift, and where the vehicle covers the view:
   /// 0 in `seen`, as large as the band; may be empty.
   PointField(const RoundBand& reference, const PointParameters& parameters, const cv::Mat& seen = {});
 
@@ -72,7 +72,6 @@ class PointField {
     int missed = 0;
   };
 
-  void take_corners(const RoundBand& reference, int cell_px, const cv::Mat& seen);
   std::vector<FoundPoint> find(const RoundBand& now, const Magnification& magnification);
   void magnify(Point& point, double magnification) const;
 
