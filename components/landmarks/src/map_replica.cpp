@@ -21,6 +21,8 @@ std::vector<LandmarkPose> MapReplica::move(const std::vector<LandmarkPose>& pose
                [this](const LandmarkPose& pose) { return set(pose); });
   owned_.clear();
   for (const auto& pose : poses) owned_.insert(pose.id);
+  // A landmark that never came and that the owner no longer knows: otherwise such poses would pile up.
+  std::erase_if(places_, [this](const auto& place) { return !place.second.stamp_ns && !owned_.contains(place.first); });
   return moved;
 }
 

@@ -77,6 +77,17 @@ TEST(MapReplica, MakesGoodALostMessageWithTheNext) {
   for (const std::uint32_t id : {1U, 2U}) EXPECT_EQ(x_of(all, id), x_of(some, id));
 }
 
+TEST(MapReplica, ForgetsThePoseOfALandmarkThatNeverCameOnceTheOwnerDoes) {
+  MapReplica map;
+  auto landmark = landmark_at(1, 5.0);
+  map.add(landmark);
+  map.move({pose_at(1, 6.0), pose_at(2, 0.0)});
+  map.move({pose_at(3, 0.0)});
+  ASSERT_THAT(map.places(), SizeIs(2));
+  EXPECT_EQ(x_of(map, 1), 6.0);
+  EXPECT_FALSE(map.places().contains(2));
+}
+
 TEST(MapReplica, NumbersOnFromAllThatAreThere) {
   MapReplica map;
   EXPECT_EQ(map.next_id(), 1U);
