@@ -142,6 +142,7 @@ class Solver {
 
   // Schur complement of the points, lower triangle.
   void eliminate_points(double damping) {
+    damping_of_reduced_ = damping;
     reduced_ = normal_;
     reduced_.diagonal() *= 1.0 + damping;
     reduced_gradient_ = gradient_;
@@ -196,12 +197,14 @@ class Solver {
     return true;
   }
 
-  // Uses the normal equations of the last step, which was small.
+  // Uses the normal equations of the last step, which was small. Damping that it may have needed adds information that
+  // nobody measured.
   void summarise(BundleSummary& summary) {
     const double unknowns = 6.0 * free_frames_ + 3.0 * static_cast<double>(problem_.points.size());
     // The redescending loss reduces the weight of the tails; dividing by the same weights keeps the mean square
     // comparable.
     summary.variance = weighted_squares_ / std::max(1.0, weighted_count_ - unknowns);
+    if (damping_of_reduced_ > kFirstDamping) eliminate_points(kFirstDamping);
     const Eigen::MatrixXd symmetric = reduced_.selfadjointView<Eigen::Lower>();
     const Eigen::LLT<Eigen::MatrixXd> factor(symmetric);
     if (factor.info() != Eigen::Success) return;
@@ -221,6 +224,7 @@ class Solver {
   std::vector<Matrix63d> cross_;  // pose by point, one per observation
   std::vector<Eigen::Matrix3d> inverse_point_normal_;
   Eigen::MatrixXd reduced_;
+  double damping_of_reduced_ = 0.0;
   Eigen::VectorXd reduced_gradient_;
   State moved_;
   double weighted_squares_ = 0.0;

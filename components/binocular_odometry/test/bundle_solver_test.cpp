@@ -50,7 +50,7 @@ class Drive {
     std::normal_distribution<double> normal;
     BundleProblem problem = truth;
     for (auto& observation : problem.observations) {
-      if (with_noise) observation.pixel += kSigma_px * Eigen::Vector3d(normal(random), normal(random), normal(random));
+      if (with_noise) observation.pixel += kSigma_px * Eigen::Vector3d{normal(random), normal(random), normal(random)};
     }
     for (size_t i = 1; i < problem.left_from_world.size(); ++i) {
       Vector6d error;
@@ -185,6 +185,19 @@ TEST(BundleSolver, CovarianceAgreesWithMonteCarlo) {
   }
   EXPECT_NEAR(nees, 6.0, 0.9);
   EXPECT_NEAR(variance, 1.0, 0.05);
+}
+
+// At the minimum no step improves, so that the damping grows until the solver gives up.
+TEST(BundleSolver, CovarianceIsTheSameWhenStartedAtTheMinimum) {
+  const Drive drive(3, 60);
+  BundleOptions options = thorough();
+  options.max_iterations = 100;
+  options.min_improvement = 0.0;
+  BundleProblem problem = drive.disturbed(7);
+  const BundleSummary first = solve(kStereo, problem, thorough());
+  const BundleSummary again = solve(kStereo, problem, options);
+  ASSERT_EQ(again.covariance.rows(), 12);
+  EXPECT_TRUE(again.covariance.isApprox(first.covariance, 1e-3));
 }
 
 }  // namespace
