@@ -120,9 +120,19 @@ TEST(PlanarPose, IsNotThereFromALineOfCorners) {
   std::mt19937 random(3);
   const auto pose = test::hold_board(kBoard, Eigen::Isometry3d::Identity(), 5.0, 40.0, 0.5, 30.0, random);
   std::vector<Corner> corners;
-  for (int id = 0; id < kBoard.columns; ++id) corners.push_back({id, *model.project(pose * kBoard.point(id))});
+  const auto see = [&](int id) { return Corner{id, *model.project(pose * kBoard.point(id))}; };
+  for (int id = 0; id < kBoard.columns; ++id) corners.push_back(see(id));
   const auto unproject = [&](const Eigen::Vector2d& pixel) { return model.unproject(pixel); };
   EXPECT_FALSE(planar_pose(corners, kBoard.points(), unproject));
+  for (const std::ptrdiff_t at : {0, 1, 2, 3}) {  // one corner beside the line, which may come first
+    auto with_one = corners;
+    with_one.insert(with_one.begin() + at, see(kBoard.columns));
+    EXPECT_FALSE(planar_pose(with_one, kBoard.points(), unproject)) << at;
+    with_one.push_back(see(kBoard.columns + 3));
+    const auto found = planar_pose(with_one, kBoard.points(), unproject);
+    ASSERT_TRUE(found) << at;
+    EXPECT_TRUE(found->isApprox(pose, 1e-6)) << at;
+  }
   corners.resize(3);
   EXPECT_FALSE(planar_pose(corners, kBoard.points(), unproject));
 }

@@ -57,7 +57,7 @@ inline Eigen::Isometry3d hold_board(const Board& board, const Eigen::Isometry3d&
                                    Eigen::AngleAxisd(kDegree * off_deg, Eigen::Vector3d::UnitY()) *
                                    Eigen::AngleAxisd(-kDegree * azimuth_deg, Eigen::Vector3d::UnitZ()))
                                       .toRotationMatrix();
-  const Eigen::Vector3d axis = Eigen::Vector3d(any(random), any(random), 0.0).normalized();
+  const Eigen::Vector3d axis = Eigen::Vector3d{any(random), any(random), 0.0}.normalized();
   Eigen::Isometry3d camera_from_board = Eigen::Isometry3d::Identity();
   camera_from_board.linear() =
       towards * Eigen::AngleAxisd(kDegree * tilt_deg, axis).toRotationMatrix() *
@@ -75,8 +75,9 @@ inline std::vector<Eigen::Isometry3d> hold_boards(const Board& board, const std:
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < count; ++i) {
     const auto& camera = cameras[static_cast<std::size_t>(i) % cameras.size()];
-    poses.push_back(hold_board(board, camera.camera_from_reference, widest_off_deg * std::sqrt(share(random)),
-                               137.5 * i, nearest_m * (1.0 + share(random)), 15.0 + 30.0 * share(random), random));
+    const double off_deg = widest_off_deg * std::sqrt(share(random));
+    const double distance_m = nearest_m * (1.0 + share(random)), tilt_deg = 15.0 + 30.0 * share(random);
+    poses.push_back(hold_board(board, camera.camera_from_reference, off_deg, 137.5 * i, distance_m, tilt_deg, random));
   }
   return poses;
 }
@@ -104,7 +105,7 @@ inline Observations observe(const Board& board, const std::vector<RigCamera>& ca
       for (int id = 0; id < board.corners(); ++id) {
         const auto pixel = models[i].project(camera_from_board * board.point(id));
         if (!pixel || !cameras[i].lens.pinhole.contains(*pixel, 3.0)) continue;
-        corners.push_back({id, *pixel + noise_px * Eigen::Vector2d(noise(random), noise(random))});
+        corners.push_back({id, *pixel + noise_px * Eigen::Vector2d{noise(random), noise(random)}});
       }
       const int needed = board.kind == Board::Kind::kChessboard ? board.corners() : 8;
       if (static_cast<int>(corners.size()) >= needed) observations.views.back().seen[i] = corners;
