@@ -36,10 +36,11 @@ constexpr double kMaxNoise = 9.0;        // of the stated variances: points fart
 constexpr double kTiltSigma_rad = 0.05;  // roll and pitch between two panoramas, road vehicle
 constexpr double kSlopeSigma = 0.2;      // vertical component of the drift, road vehicle
 constexpr double kMinSpread_rad = 3e-4;
-constexpr double kSure_rad = vision::kDegree;  // of the drift azimuth; half of it between buildings
-constexpr double kMoves_rad = 1e-3;            // typical parallax; of less, no direction makes a turn
-constexpr int kOthers = 12;                    // directions over a full turn from which other motions are sought
-constexpr double kAlike = 4.0;                 // points whose errors are alike count as one
+constexpr double kSure_rad =
+    0.25 * vision::kDegree;          // of the drift azimuth; between buildings it is smaller, and there is one solution
+constexpr double kMoves_rad = 1e-3;  // typical parallax; of less, no direction makes a turn
+constexpr int kOthers = 12;          // directions over a full turn from which other motions are sought
+constexpr double kAlike = 4.0;       // points whose errors are alike count as one
 
 struct NormalEquations {
   Matrix5d hessian = Matrix5d::Zero();

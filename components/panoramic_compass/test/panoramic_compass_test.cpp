@@ -308,7 +308,7 @@ TEST(PointsAllRound, DoNotFollowTheSky) {
     const int drift = panorama == &now ? 40 : 0;
     cv::RNG same(11);
     for (int i = 0; i < 60; ++i) {
-      const cv::Point place(same.uniform(0, kColumns), same.uniform(0, 250));
+      const cv::Point place{same.uniform(0, kColumns), same.uniform(0, 250)};
       for (const int turn : {-kColumns, 0}) {
         cv::Mat mask = *panorama > 200;
         cv::Mat clouds = panorama->clone();
@@ -327,14 +327,14 @@ TEST(PointsAllRound, DoNotFollowTheCloudsOfOpenLand) {
   land.rowRange(kRows / 2, kRows).setTo(cv::Scalar(85));
   cv::RNG random(7);
   for (int i = 0; i < 250; ++i) {  // trees and cars at the horizon
-    const cv::Rect object(random.uniform(0, kColumns), random.uniform(240, 275), random.uniform(4, 14), 12);
+    const cv::Rect object{random.uniform(0, kColumns), random.uniform(240, 275), random.uniform(4, 14), 12};
     cv::rectangle(land, object, cv::Scalar(random.uniform(15, 70)), -1);
   }
   const auto view = [&](double turned_columns, int clouds_moved) {
     cv::Mat clouds(kRows, kColumns, CV_8UC1, cv::Scalar(0));
     cv::RNG same(11);
     for (int i = 0; i < 120; ++i) {
-      const cv::Rect cloud(same.uniform(0, kColumns), same.uniform(60, 210), same.uniform(20, 60), same.uniform(8, 20));
+      const cv::Rect cloud{same.uniform(0, kColumns), same.uniform(60, 210), same.uniform(20, 60), same.uniform(8, 20)};
       for (const int round : {-kColumns, 0})
         cv::rectangle(clouds, cloud + cv::Point(clouds_moved + round, 0), cv::Scalar(250), -1);
     }

@@ -88,7 +88,7 @@ TEST(PointField, HasNoPointsInTheSky) {
   cv::Mat clouds(144, kColumns, CV_8UC1, cv::Scalar(200));
   cv::RNG random(11);
   for (int i = 0; i < 150; ++i) {
-    cv::circle(clouds, cv::Point(random.uniform(20, kColumns - 20), random.uniform(0, 144)), 8, cv::Scalar(250), -1);
+    cv::circle(clouds, cv::Point{random.uniform(20, kColumns - 20), random.uniform(0, 144)}, 8, cv::Scalar(250), -1);
   }
   EXPECT_GT(PointField(RoundBand(clouds), {}).size(), 50U);
   EXPECT_EQ(PointField(RoundBand(clouds, 150.0), {}).size(), 0U);

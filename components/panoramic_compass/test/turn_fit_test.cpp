@@ -34,13 +34,16 @@ class Scene {
     return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
   }
   BearingPair pair(const Eigen::Vector3d& point, const Eigen::Isometry3d& now_from_then) {
-    const Eigen::Vector3d noise(kNoise_rad * normal(), kNoise_rad * normal(), kNoise_rad * normal());
+    const Eigen::Vector3d noise{kNoise_rad * normal(), kNoise_rad * normal(), kNoise_rad * normal()};
     return {point.normalized(), ((now_from_then * point).normalized() + noise).normalized(),
             Eigen::Vector2d::Constant(kNoise_rad * kNoise_rad)};
   }
   std::vector<BearingPair> pairs(int count, const Eigen::Isometry3d& now_from_then) {
     std::vector<BearingPair> all;
-    for (int i = 0; i < count; ++i) all.push_back(pair(between(4.0, 40.0) * direction(), now_from_then));
+    for (int i = 0; i < count; ++i) {
+      const double range_m = between(4.0, 40.0);
+      all.push_back(pair(range_m * direction(), now_from_then));
+    }
     return all;
   }
 
@@ -140,7 +143,7 @@ TEST(TurnFit, IsHonestInFieldsWhereAllPointsAreNearTheHorizon) {
       const double range_m = azimuth < 3.0 ? scene.between(70.0, 110.0) : scene.between(120.0, 250.0);
       auto pair = scene.pair(range_m * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), elevation), now_from_then);
       const double off_rad = i % 5 == 0 ? 0.006 : 0.001;
-      pair.now = (pair.now + off_rad * Eigen::Vector3d(scene.normal(), scene.normal(), scene.normal())).normalized();
+      pair.now = (pair.now + off_rad * Eigen::Vector3d{scene.normal(), scene.normal(), scene.normal()}).normalized();
       pairs.push_back(pair);
     }
     const auto fit = fit_turn(pairs, vision::so3_exp({0.0, 0.0, -0.19}));
