@@ -19,7 +19,9 @@ namespace {
 
 constexpr double kConfidence = 0.999;  // of having drawn at least one triple without outliers
 constexpr double kMinDisparity = 1.0;  // px: the depth of farther points is too uncertain for 3D alignment
-constexpr int kPolishIterations = 3;
+constexpr double kPromising = 1.3;     // score, relative to the best, up to which a motion is worth polishing
+constexpr int kPolishIterations = 10;
+constexpr double kSettled = 1e-3;  // rad and m: far below what a few points tell
 
 class Consensus {
  public:
@@ -72,15 +74,18 @@ class Consensus {
     return sum;
   }
 
+  // Three points at some distance give a poor motion even if none is an outlier, so that motions are compared after
+  // polishing, if they are about as good as the best.
   void consider(const Eigen::Isometry3d& motion) {
     double now = score(motion);
-    if (now >= best_score_) return;
+    if (now >= kPromising * best_score_) return;
     Eigen::Isometry3d improved = motion;
     const Eigen::Isometry3d polished = polish(motion);
     if (const double then = score(polished); then < now) {
       improved = polished;
       now = then;
     }
+    if (now >= best_score_) return;
     best_score_ = now;
     best_.current_from_previous = improved;
     best_.is_inlier.assign(points_.size(), false);
@@ -118,6 +123,7 @@ class Consensus {
       const vision::Vector6d step = factor.solve(-gradient);
       if (!step.allFinite()) break;
       motion = vision::se3_exp(step) * motion;
+      if (step.norm() < kSettled) break;
     }
     return motion;
   }

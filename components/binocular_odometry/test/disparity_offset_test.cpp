@@ -33,7 +33,7 @@ std::vector<FramePair> points(std::mt19937& random, const Eigen::Isometry3d& mot
   std::vector<FramePair> points;
   for (int i = 0; i < 200; ++i) {
     const double z = uniform(5.0, 50.0);
-    const Eigen::Vector3d point(uniform(-0.6, 0.6) * z, uniform(-0.4, 0.4) * z, z);
+    const Eigen::Vector3d point{uniform(-0.6, 0.6) * z, uniform(-0.4, 0.4) * z, z};
     points.push_back({see(point), see(i < movers ? point : motion * point)});
   }
   return points;

@@ -42,7 +42,7 @@ class DriveBehindACar {
       if (pixel.x() < 5.0 || pixel.x() > 635.0 || pixel.y() < 5.0 || pixel.y() > 475.0) return false;
       Observation seen;
       seen.track_id = id;
-      seen.pixel = pixel + 0.1 * Eigen::Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      seen.pixel = pixel + 0.1 * Eigen::Vector3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
       seen.sigma_px = seen.sigma_disparity_px = 0.1;
       seen.has_disparity = true;
       tracked.observations.push_back(seen);
@@ -87,7 +87,7 @@ class DriveBehindACar {
   void renew(Point& point, int index, bool is_far) {
     const double z = is_far ? uniform(50.0, 90.0) : uniform(5.0, 15.0);
     point.id = ++last_id_;
-    point.in_world = world_from_left(index) * Eigen::Vector3d(uniform(-0.7, 0.7) * z, uniform(-0.5, 0.5) * z, z);
+    point.in_world = world_from_left(index) * Eigen::Vector3d{uniform(-0.7, 0.7) * z, uniform(-0.5, 0.5) * z, z};
   }
 
   std::mt19937 random_{5};
@@ -158,13 +158,13 @@ class BlindDrive {
     std::erase_if(points_, [&](const auto& point) { return !is_in_view(pose.inverse() * point.second); });
     while (points_.size() < kPoints) {
       const double z = uniform(4.0, 40.0);
-      points_[++last_id_] = pose * Eigen::Vector3d(uniform(-0.7, 0.7) * z, uniform(-0.5, 0.5) * z, z);
+      points_[++last_id_] = pose * Eigen::Vector3d{uniform(-0.7, 0.7) * z, uniform(-0.5, 0.5) * z, z};
     }
     for (const auto& [id, in_world] : points_) {
       Observation observation;
       observation.track_id = id;
       observation.pixel = vision::observe(kStereo, pose.inverse() * in_world) +
-                          0.2 * Eigen::Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+                          0.2 * Eigen::Vector3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
       observation.sigma_px = observation.sigma_disparity_px = 0.12;
       observation.has_disparity = true;
       frame.observations.push_back(observation);
