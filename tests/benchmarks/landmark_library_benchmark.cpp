@@ -112,7 +112,7 @@ void within_a_prior(benchmark::State& state) {
   std::mt19937_64 random(1);
   std::size_t found = 0;
   for (auto _ : state) {
-    const Eigen::Vector3d position(kExtent_m * (test::share(random) - 0.5), kExtent_m * (test::share(random) - 0.5), 0);
+    const Eigen::Vector3d position{kExtent_m * (test::share(random) - 0.5), kExtent_m * (test::share(random) - 0.5), 0};
     found += library.within(position, static_cast<double>(state.range(0))).size();
   }
   state.counters["found"] = static_cast<double>(found) / static_cast<double>(state.iterations());
@@ -123,7 +123,7 @@ void nearest(benchmark::State& state) {
   const auto library = load(LandmarkStore(store_file()));
   std::mt19937_64 random(1);
   for (auto _ : state) {
-    const Eigen::Vector3d position(kExtent_m * (test::share(random) - 0.5), kExtent_m * (test::share(random) - 0.5), 0);
+    const Eigen::Vector3d position{kExtent_m * (test::share(random) - 0.5), kExtent_m * (test::share(random) - 0.5), 0};
     benchmark::DoNotOptimize(library.nearest(position));
   }
 }

@@ -73,7 +73,7 @@ class Park {
  private:
   Eigen::Vector3d noisy(const Eigen::Vector3d& bearing) {
     std::normal_distribution<double> noise(0.0, noise_rad_);
-    return (bearing + Eigen::Vector3d(noise(random_), noise(random_), noise(random_))).normalized();
+    return (bearing + Eigen::Vector3d{noise(random_), noise(random_), noise(random_)}).normalized();
   }
 
   std::mt19937 random_;

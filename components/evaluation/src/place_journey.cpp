@@ -70,7 +70,7 @@ JourneyScore match_journey(const PlaceTask& task, const PlaceRecording& first, c
     frame.travelled_m = panorama.travelled_m;
     if (settings.position_sigma_m) {
       const double sigma_m = *settings.position_sigma_m;
-      const Eigen::Vector3d error(sigma_m * uniform(), sigma_m * uniform(), 0.0);
+      const Eigen::Vector3d error{sigma_m * uniform(), sigma_m * uniform(), 0.0};
       frame.prior = {panorama.world_from_base.translation() + error, sigma_m};
     }
     const auto match = matcher.match(frame, library);

@@ -24,7 +24,7 @@ std::vector<PosePair> noisy_pairs() {
   std::mt19937 generator(7);
   std::normal_distribution<double> noise(0.0, 0.3);
   for (StampedPose& pose : estimate.poses) {
-    pose.world_from_base.translation() += Eigen::Vector3d(noise(generator), noise(generator), noise(generator));
+    pose.world_from_base.translation() += Eigen::Vector3d{noise(generator), noise(generator), noise(generator)};
   }
   return pairs_of(estimate, winding_path(100));
 }

@@ -148,8 +148,8 @@ TEST(Nees, CountsTheStatedNoiseOfTheGroundTruth) {
   std::mt19937 generator(6);
   std::normal_distribution<double> normal;
   for (StampedPose& pose : trembling.poses) {
-    const Eigen::Vector3d turn = 0.003 * Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
-    const Eigen::Vector3d move = 0.02 * Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
+    const Eigen::Vector3d turn = 0.003 * Eigen::Vector3d{normal(generator), normal(generator), normal(generator)};
+    const Eigen::Vector3d move = 0.02 * Eigen::Vector3d{normal(generator), normal(generator), normal(generator)};
     pose.world_from_base =
         pose.world_from_base * Eigen::Translation3d(move) * Eigen::AngleAxisd(turn.norm(), turn.normalized());
   }

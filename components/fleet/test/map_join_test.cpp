@@ -48,7 +48,8 @@ TEST(MapJoin, HasAnErrorWithinItsCovariance) {
     const JoinParameters exact{
         .position_sigma_m = 0.0, .rotation_sigma_deg = 0.0, .drift_ratio = 0.0, .drift_deg_per_m = 0.0};
     for (std::uint32_t id = 1; id <= 8; ++id) {
-      auto error = flat(0.05 * normal(random), 0.05 * normal(random), 0.003 * normal(random));
+      const Eigen::Vector3d errors{normal(random), normal(random), normal(random)};
+      auto error = flat(0.05 * errors.x(), 0.05 * errors.y(), 0.003 * errors.z());
       error.translation().z() = 0.05 * normal(random);
       error.linear() = vision::so3_exp({0.003 * normal(random), 0.003 * normal(random), 0.0}) * error.linear();
       maps.a_sees(id, id, error);

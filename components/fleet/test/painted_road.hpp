@@ -49,8 +49,8 @@ class PaintedRoad {
     cv::RNG random(seed);
     cv::Mat panorama(540, 1080, CV_8UC1, cv::Scalar(110));
     for (int i = 0; i < 900; ++i) {
-      const cv::Rect box(random.uniform(0, 1030), random.uniform(120, 340), random.uniform(4, 54),
-                         random.uniform(4, 44));
+      const cv::Rect box{random.uniform(0, 1030), random.uniform(120, 340), random.uniform(4, 54),
+                         random.uniform(4, 44)};
       cv::rectangle(panorama, box, cv::Scalar(random.uniform(20, 230)), cv::FILLED);
     }
     return panorama;

@@ -46,7 +46,7 @@ class Street {
  private:
   Eigen::Vector3f seen(const Eigen::Vector3d& point, double sigma_rad) {
     std::normal_distribution<double> normal(0.0, 1.0);
-    const Eigen::Vector3d noise(normal(random_), normal(random_), normal(random_));
+    const Eigen::Vector3d noise{normal(random_), normal(random_), normal(random_)};
     return (point.normalized() + sigma_rad * noise).normalized().cast<float>();
   }
 

@@ -91,7 +91,7 @@ TEST(LandmarkLibrary, FindsWithinARadiusWhatASearchOfAllFinds) {
   for (std::uint32_t id = 1; id <= 2000; ++id) library.add(test::made_up_landmark(id, 0, 2000.0));
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 300; ++trial) {
-    const Eigen::Vector3d position(2400.0 * (test::share(random) - 0.5), 2400.0 * (test::share(random) - 0.5), 50.0);
+    const Eigen::Vector3d position{2400.0 * (test::share(random) - 0.5), 2400.0 * (test::share(random) - 0.5), 50.0};
     const double radius = std::pow(10.0, 4.0 * test::share(random) - 0.5);
     std::vector<std::uint32_t> expected;
     for (const auto* landmark : library.all()) {
@@ -109,7 +109,7 @@ TEST(LandmarkLibrary, FindsTheNearestThatASearchOfAllFinds) {
   std::mt19937_64 random(6);
   for (int trial = 0; trial < 300; ++trial) {
     const double extent = trial % 10 == 0 ? 1e7 : 3000.0;
-    const Eigen::Vector3d position(extent * (test::share(random) - 0.5), extent * (test::share(random) - 0.5), 0.0);
+    const Eigen::Vector3d position{extent * (test::share(random) - 0.5), extent * (test::share(random) - 0.5), 0.0};
     double expected = kInfinite;
     for (const auto* landmark : library.all()) {
       expected = std::min(expected, (landmark->map_from_base.translation() - position).head<2>().norm());

@@ -16,10 +16,10 @@ inline double share(std::mt19937_64& random) { return static_cast<double>(random
 
 inline Eigen::Isometry3d made_up_pose(std::mt19937_64& random, double extent_m) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(share(random) - 0.5, share(random), share(random), share(random))
+  pose.linear() = Eigen::Quaterniond{share(random) - 0.5, share(random), share(random), share(random)}
                       .normalized()
                       .toRotationMatrix();
-  pose.translation() = extent_m * Eigen::Vector3d(share(random) - 0.5, share(random) - 0.5, 0.01 * share(random));
+  pose.translation() = extent_m * Eigen::Vector3d{share(random) - 0.5, share(random) - 0.5, 0.01 * share(random)};
   return pose;
 }
 
@@ -49,7 +49,7 @@ inline PanoramicLandmark made_up_landmark(std::uint32_t id, std::size_t keypoint
   for (std::size_t i = 0; i < keypoints; ++i) {
     Keypoint keypoint;
     keypoint.bearing =
-        Eigen::Vector3d(share(random) - 0.5, 0.1 * share(random), share(random) - 0.5).normalized().cast<float>();
+        Eigen::Vector3d{share(random) - 0.5, 0.1 * share(random), share(random) - 0.5}.normalized().cast<float>();
     keypoint.size_px = static_cast<float>(2.0 + 10.0 * share(random));
     for (auto& byte : keypoint.descriptor) byte = static_cast<std::uint8_t>(random() >> 56);
     keypoint.has_point = i % 2 == 0;

@@ -15,8 +15,8 @@ inline cv::Mat paint_panorama(std::uint64_t seed) {
   cv::Mat panorama(540, 1080, CV_8UC1, cv::Scalar(200));
   panorama.rowRange(270, 540).setTo(90);
   for (int i = 0; i < 220; ++i) {
-    const cv::Rect block(random.uniform(0, 1060), random.uniform(120, 290), random.uniform(8, 90),
-                         random.uniform(8, 70));
+    const cv::Rect block{random.uniform(0, 1060), random.uniform(120, 290), random.uniform(8, 90),
+                         random.uniform(8, 70)};
     cv::rectangle(panorama, block, cv::Scalar(random.uniform(10, 245)), cv::FILLED);
   }
   return panorama;

@@ -52,8 +52,8 @@ Disturbed disturb(const cv::Mat& panorama, cv::RNG& random) {
   darker += noise;
   darker.convertTo(image, CV_8U);
   for (int i = 0; i < 3; ++i) {
-    const cv::Rect patch(random.uniform(0, 980), random.uniform(170, 230), random.uniform(60, 100),
-                         random.uniform(60, 120));
+    const cv::Rect patch{random.uniform(0, 980), random.uniform(170, 230), random.uniform(60, 100),
+                         random.uniform(60, 120)};
     cv::rectangle(image, patch, cv::Scalar(random.uniform(0, 256)), cv::FILLED);
   }
   return {image, vision::wrap(2.0 * std::numbers::pi * shift / panorama.cols, 2.0 * std::numbers::pi)};

@@ -49,7 +49,7 @@ ExtrinsicsMonitor after_passes(int passes, const Mounted& mounted, double turn_r
       LandmarkSighting sighting;
       sighting.landmark_id = static_cast<std::uint32_t>(pass + 1);
       sighting.landmark_from_base = true_from_said.inverse() * truth * true_from_said;
-      sighting.landmark_from_base.translation() += Eigen::Vector3d(noise(random), noise(random), noise(random));
+      sighting.landmark_from_base.translation() += Eigen::Vector3d{noise(random), noise(random), noise(random)};
       sighting.covariance.topLeftCorner<3, 3>() = kSighting_m * kSighting_m * Eigen::Matrix3d::Identity();
       check.add(sighting, at);
     }

@@ -38,7 +38,8 @@ TEST(ProtectionRadius, IsExceededAsOftenAsIsStated) {
     int exceeded = 0;
     for (int i = 0; i < kDraws; ++i) {
       const double scale = std::sqrt(kTail / chi_squared(random));
-      exceeded += std::hypot(2.0 * scale * normal(random), minor_m * scale * normal(random)) > radius_m ? 1 : 0;
+      const Eigen::Vector2d error_m{2.0 * normal(random), minor_m * normal(random)};
+      exceeded += scale * error_m.norm() > radius_m ? 1 : 0;
     }
     EXPECT_NEAR(static_cast<double>(exceeded) / kDraws, kRisk, 0.1 * kRisk) << minor_m;
   }

@@ -79,9 +79,9 @@ TEST(PoseGraph, HasCovariancesThatErrorsFollow) {
       const Eigen::Isometry3d step = pose(5.0, 0.5, 0.4);
       truth.push_back(truth.back() * step);
       Eigen::Isometry3d measured = step;
-      measured.translation() += 0.05 * Eigen::Vector3d(normal(random), normal(random), normal(random));
+      measured.translation() += 0.05 * Eigen::Vector3d{normal(random), normal(random), normal(random)};
       measured.linear() =
-          vision::so3_exp(0.01 * Eigen::Vector3d(normal(random), normal(random), normal(random))) * measured.linear();
+          vision::so3_exp(0.01 * Eigen::Vector3d{normal(random), normal(random), normal(random)}) * measured.linear();
       graph.poses.push_back(graph.poses.back() * measured);
       graph.edges.push_back({i, i + 1, measured, spread, false});
     }

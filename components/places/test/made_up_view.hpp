@@ -76,7 +76,7 @@ class MadeUpScene {
                                double noise_deg) {
     landmarks::Keypoint keypoint;
     const auto noise = [&] { return noise_deg * vision::kDegree * uniform(-1.7, 1.7); };
-    keypoint.bearing = (point.normalized() + Eigen::Vector3d(noise(), noise(), noise())).normalized().cast<float>();
+    keypoint.bearing = (point.normalized() + Eigen::Vector3d{noise(), noise(), noise()}).normalized().cast<float>();
     keypoint.descriptor = look;
     for (auto& value : keypoint.descriptor) value = static_cast<std::uint8_t>(value + random_() % 8);
     return keypoint;

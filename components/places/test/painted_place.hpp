@@ -16,8 +16,8 @@ inline cv::Mat paint_place(std::uint64_t seed) {
   cv::Mat panorama(540, 1080, CV_8UC1, cv::Scalar(190));
   panorama.rowRange(270, 540).setTo(100);
   for (int i = 0; i < 500; ++i) {
-    const cv::Rect block(random.uniform(0, 1080), random.uniform(110, 370), random.uniform(6, 80),
-                         random.uniform(6, 60));
+    const cv::Rect block{random.uniform(0, 1080), random.uniform(110, 370), random.uniform(6, 80),
+                         random.uniform(6, 60)};
     const cv::Scalar grey(random.uniform(10, 245));
     cv::rectangle(panorama, block, grey, cv::FILLED);
     cv::rectangle(panorama, block - cv::Point(1080, 0), grey, cv::FILLED);

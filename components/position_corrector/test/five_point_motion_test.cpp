@@ -55,7 +55,7 @@ class Views {
     for (auto& byte : then.descriptor) byte = static_cast<std::uint8_t>(random_() % 90);
     landmark.push_back(then);
     Keypoint now = then;
-    const Eigen::Vector3d noise(any(), any(), any());
+    const Eigen::Vector3d noise{any(), any(), any()};
     const Eigen::Vector3d seen = (landmark_from_panorama.inverse() * point).normalized();
     now.bearing = (seen + noise_rad * noise).normalized().cast<float>();
     panorama.push_back(now);

@@ -42,7 +42,7 @@ class Place {
     Keypoint seen = known;
     seen.has_point = false;
     std::normal_distribution<double> normal;
-    const Eigen::Vector3d noise(normal(random_), normal(random_), normal(random_));
+    const Eigen::Vector3d noise{normal(random_), normal(random_), normal(random_)};
     seen.bearing = ((seen_from.inverse() * point).normalized() + 0.003 * noise).normalized().cast<float>();
     panorama.push_back(seen);
   }

@@ -26,7 +26,7 @@ class Scene {
     const Eigen::Vector3d point(range * std::sin(azimuth), -2.0 + 3.0 * any(random_), range * std::cos(azimuth));
     std::normal_distribution<double> normal;
     const auto noise = [&](double sigma) -> Eigen::Vector3d {
-      return sigma * Eigen::Vector3d(normal(random_), normal(random_), normal(random_));
+      return sigma * Eigen::Vector3d{normal(random_), normal(random_), normal(random_)};
     };
     const Eigen::Vector3d seen = (pose.inverse() * point).normalized();
     return {point + noise(point_sigma_m), point_sigma_m * point_sigma_m * Eigen::Matrix3d::Identity(),
@@ -109,7 +109,7 @@ std::vector<SightedPoint> field(Scene& scene, int near_points) {
     const Eigen::Vector3d along = point.normalized();
     sights.push_back({point, sigma_m * sigma_m * along * along.transpose() + 1e-4 * Eigen::Matrix3d::Identity(),
                       (scene.pose.inverse() * point +
-                       kSigma_rad * range_m * Eigen::Vector3d(normal(random), normal(random), normal(random)))
+                       kSigma_rad * range_m * Eigen::Vector3d{normal(random), normal(random), normal(random)})
                           .normalized()});
   };
   for (int i = 0; i < 12; ++i) add(0.2 + 0.1 * i, 100.0 + 7.0 * i, 4.0 + i % 5);

@@ -20,11 +20,11 @@ std::vector<landmarks::Keypoint> some_keypoints(unsigned seed, std::size_t count
   const auto any = [&] { return static_cast<float>(random() % 100'000) * 1e-3F; };
   std::vector<landmarks::Keypoint> keypoints(count);
   for (auto& keypoint : keypoints) {
-    keypoint.bearing = Eigen::Vector3f(any(), any(), any()).normalized();
+    keypoint.bearing = Eigen::Vector3f{any(), any(), any()}.normalized();
     keypoint.size_px = any();
     for (auto& byte : keypoint.descriptor) byte = static_cast<std::uint8_t>(random());
     keypoint.has_point = random() % 2 == 0;
-    keypoint.point_in_panorama = Eigen::Vector3f(any(), -any(), any());
+    keypoint.point_in_panorama = Eigen::Vector3f{any(), -any(), any()};
     keypoint.inverse_range_sigma = any();
   }
   return keypoints;

@@ -20,7 +20,7 @@ inline cv::Mat place(unsigned seed) {
   for (int i = 0; i < 900; ++i) {
     const int width = 4 + static_cast<int>(random() % 50);
     const int height = 4 + static_cast<int>(random() % 40);
-    const cv::Rect box(static_cast<int>(random() % kColumns), 120 + static_cast<int>(random() % 220), width, height);
+    const cv::Rect box{static_cast<int>(random() % kColumns), 120 + static_cast<int>(random() % 220), width, height};
     const cv::Scalar grey(static_cast<double>(20 + random() % 210));
     cv::rectangle(panorama, box, grey, cv::FILLED);
     cv::rectangle(panorama, box - cv::Point(kColumns, 0), grey, cv::FILLED);

@@ -36,7 +36,7 @@ inline std::vector<landmarks::Keypoint> made_up_place(unsigned seed, int count =
   for (int i = 0; i < count; ++i) {
     landmarks::Keypoint keypoint;
     const double depth = uniform(5.0, 30.0);
-    const Eigen::Vector3d point(depth * uniform(-0.57, 0.57), depth * uniform(-0.3, 0.2), depth);
+    const Eigen::Vector3d point{depth * uniform(-0.57, 0.57), depth * uniform(-0.3, 0.2), depth};
     keypoint.point_in_panorama = point.cast<float>();
     keypoint.bearing = point.normalized().cast<float>();
     keypoint.has_point = true;

@@ -36,7 +36,7 @@ TEST(StereoGeometry, CovarianceOfAPointAgreesWithMonteCarlo) {
   Eigen::Matrix3d sampled = Eigen::Matrix3d::Zero();
   constexpr int kSamples = 40000;
   for (int i = 0; i < kSamples; ++i) {
-    const Eigen::Vector3d error = Eigen::Vector3d(normal(random), normal(random), normal(random)).cwiseProduct(sigma);
+    const Eigen::Vector3d error = Eigen::Vector3d{normal(random), normal(random), normal(random)}.cwiseProduct(sigma);
     const Eigen::Vector3d moved = *triangulate(kStereo, observation + error) - mean;
     sampled += moved * moved.transpose() / kSamples;
   }

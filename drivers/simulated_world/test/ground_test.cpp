@@ -117,7 +117,7 @@ void expect_whole(const Site& site, const Scene& scene) {
   const Plan plan(all);
   Random random(2, "ground test");
   for (int i = 0; i < 20000; ++i) {
-    const Vector2d point(random.uniform(-75.0, 75.0), random.uniform(-75.0, 75.0));
+    const Vector2d point{random.uniform(-75.0, 75.0), random.uniform(-75.0, 75.0)};
     const auto hit = plan.highest(point);
     ASSERT_TRUE(hit) << point.transpose();
     const double kerb_m = site.distance_from_kerb(point);
@@ -125,7 +125,7 @@ void expect_whole(const Site& site, const Scene& scene) {
     EXPECT_NEAR(hit->height_m, site.ground_m(point), 0.02) << point.transpose() << ", from kerb " << kerb_m;
   }
   for (int i = 0; i < 2000; ++i) {
-    const Vector2d point(random.uniform(-350.0, 350.0), random.uniform(-350.0, 350.0));
+    const Vector2d point{random.uniform(-350.0, 350.0), random.uniform(-350.0, 350.0)};
     const auto hit = plan.highest(point);
     ASSERT_TRUE(hit) << point.transpose();
     EXPECT_NEAR(hit->height_m, site.ground_m(point), 0.25) << point.transpose();
@@ -159,7 +159,7 @@ void expect_materials(const Site& site, const Scene& scene) {
   const Plan plan(scene.fixed[0]);
   Random random(3, "ground test");
   for (int i = 0; i < 3000; ++i) {
-    const Vector2d point(random.uniform(-120.0, 120.0), random.uniform(-120.0, 120.0));
+    const Vector2d point{random.uniform(-120.0, 120.0), random.uniform(-120.0, 120.0)};
     const double kerb_m = site.distance_from_kerb(point);
     const std::string name = ground_palette()->materials()[plan.highest(point)->material].name;
     const char* expected = kerb_m < -0.4                   ? "asphalt"

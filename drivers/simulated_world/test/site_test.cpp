@@ -83,7 +83,7 @@ TEST(KerbField, FindsTheNearestRoadAsTheNetworkDoes) {
   Random random(3, "kerb field test");
   int compared = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Vector2d point(random.uniform(-230.0, 230.0), random.uniform(-180.0, 180.0));
+    const Vector2d point{random.uniform(-230.0, 230.0), random.uniform(-180.0, 180.0)};
     const RoadNetwork::Nearest expected = roads.nearest_road(point), found = kerbs.nearest_road(point);
     const auto edge_m = [&](const RoadNetwork::Nearest& nearest) {
       return nearest.distance_m - 0.5 * roads.roads[static_cast<std::size_t>(nearest.road)].width_m;
