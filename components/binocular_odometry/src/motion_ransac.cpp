@@ -19,9 +19,16 @@ namespace {
 
 constexpr double kConfidence = 0.999;  // of having drawn at least one triple without outliers
 constexpr double kMinDisparity = 1.0;  // px: the depth of farther points is too uncertain for 3D alignment
-constexpr double kPromising = 1.3;     // score, relative to the best, up to which a motion is worth polishing
-constexpr int kPolishIterations = 10;
-constexpr double kSettled = 1e-3;  // rad and m: far below what a few points tell
+constexpr double kSupported = 0.2;     // share of the votes with which a guess need not be searched for
+
+struct Search {
+  double promising;  // score, relative to the best, up to which a motion is refined
+  int refinements;
+};
+// A guess that is supported is beaten only by a motion that is better as it was drawn: what moves may have more points.
+constexpr Search kBeside{1.0, 3};
+// Three points at some distance give a poor motion even if none is an outlier, so that motions are compared refined.
+constexpr Search kWithoutGuess{1.3, 10};
 
 class Consensus {
  public:
@@ -44,10 +51,11 @@ class Consensus {
   }
 
   std::optional<RansacResult> run(std::span<const Eigen::Isometry3d> guesses) {
-    for (const auto& guess : guesses) consider(guess);
+    for (const auto& guess : guesses) consider(guess, kBeside);
+    const Search search = inlier_votes_ < kSupported * all_votes_ ? kWithoutGuess : kBeside;
     std::mt19937 random(seed_);
     for (int i = 0; i < std::min(max_iterations_, iterations_needed()); ++i) {
-      if (const auto motion = draw(random)) consider(*motion);
+      if (const auto motion = draw(random)) consider(*motion, search);
     }
     if (best_.inliers < 3) return std::nullopt;
     return best_;
@@ -74,13 +82,11 @@ class Consensus {
     return sum;
   }
 
-  // Three points at some distance give a poor motion even if none is an outlier, so that motions are compared after
-  // polishing, if they are about as good as the best.
-  void consider(const Eigen::Isometry3d& motion) {
+  void consider(const Eigen::Isometry3d& motion, const Search& search) {
     double now = score(motion);
-    if (now >= kPromising * best_score_) return;
+    if (now >= search.promising * best_score_) return;
     Eigen::Isometry3d improved = motion;
-    const Eigen::Isometry3d polished = polish(motion);
+    const Eigen::Isometry3d polished = polish(motion, search.refinements);
     if (const double then = score(polished); then < now) {
       improved = polished;
       now = then;
@@ -100,10 +106,10 @@ class Consensus {
   }
 
   // Gauss-Newton on the reprojection errors within 3 thresholds, with decreasing weight for larger errors.
-  Eigen::Isometry3d polish(Eigen::Isometry3d motion) const {
+  Eigen::Isometry3d polish(Eigen::Isometry3d motion, int iterations) const {
     const vision::CauchyLoss loss(0.5 * threshold_px_);
     const double reach2 = 9.0 * threshold_px_ * threshold_px_;
-    for (int iteration = 0; iteration < kPolishIterations; ++iteration) {
+    for (int iteration = 0; iteration < iterations; ++iteration) {
       vision::Matrix6d normal = 1e-6 * vision::Matrix6d::Identity();
       vision::Vector6d gradient = vision::Vector6d::Zero();
       for (size_t i = 0; i < points_.size(); ++i) {
@@ -123,7 +129,6 @@ class Consensus {
       const vision::Vector6d step = factor.solve(-gradient);
       if (!step.allFinite()) break;
       motion = vision::se3_exp(step) * motion;
-      if (step.norm() < kSettled) break;
     }
     return motion;
   }
