@@ -19,16 +19,7 @@ namespace {
 
 constexpr double kConfidence = 0.999;  // of having drawn at least one triple without outliers
 constexpr double kMinDisparity = 1.0;  // px: the depth of farther points is too uncertain for 3D alignment
-constexpr double kSupported = 0.2;     // share of the votes with which a guess need not be searched for
-
-struct Search {
-  double promising;  // score, relative to the best, up to which a motion is refined
-  int refinements;
-};
-// A guess that is supported is beaten only by a motion that is better as it was drawn: what moves may have more points.
-constexpr Search kBeside{1.0, 3};
-// Three points at some distance give a poor motion even if none is an outlier, so that motions are compared refined.
-constexpr Search kWithoutGuess{1.3, 10};
+constexpr int kPolishIterations = 3;
 
 class Consensus {
  public:
@@ -51,11 +42,10 @@ class Consensus {
   }
 
   std::optional<RansacResult> run(std::span<const Eigen::Isometry3d> guesses) {
-    for (const auto& guess : guesses) consider(guess, kBeside);
-    const Search search = inlier_votes_ < kSupported * all_votes_ ? kWithoutGuess : kBeside;
+    for (const auto& guess : guesses) consider(guess);
     std::mt19937 random(seed_);
     for (int i = 0; i < std::min(max_iterations_, iterations_needed()); ++i) {
-      if (const auto motion = draw(random)) consider(*motion, search);
+      if (const auto motion = draw(random)) consider(*motion);
     }
     if (best_.inliers < 3) return std::nullopt;
     return best_;
@@ -82,16 +72,15 @@ class Consensus {
     return sum;
   }
 
-  void consider(const Eigen::Isometry3d& motion, const Search& search) {
+  void consider(const Eigen::Isometry3d& motion) {
     double now = score(motion);
-    if (now >= search.promising * best_score_) return;
+    if (now >= best_score_) return;
     Eigen::Isometry3d improved = motion;
-    const Eigen::Isometry3d polished = polish(motion, search.refinements);
+    const Eigen::Isometry3d polished = polish(motion);
     if (const double then = score(polished); then < now) {
       improved = polished;
       now = then;
     }
-    if (now >= best_score_) return;
     best_score_ = now;
     best_.current_from_previous = improved;
     best_.is_inlier.assign(points_.size(), false);
@@ -106,10 +95,10 @@ class Consensus {
   }
 
   // Gauss-Newton on the reprojection errors within 3 thresholds, with decreasing weight for larger errors.
-  Eigen::Isometry3d polish(Eigen::Isometry3d motion, int iterations) const {
+  Eigen::Isometry3d polish(Eigen::Isometry3d motion) const {
     const vision::CauchyLoss loss(0.5 * threshold_px_);
     const double reach2 = 9.0 * threshold_px_ * threshold_px_;
-    for (int iteration = 0; iteration < iterations; ++iteration) {
+    for (int iteration = 0; iteration < kPolishIterations; ++iteration) {
       vision::Matrix6d normal = 1e-6 * vision::Matrix6d::Identity();
       vision::Vector6d gradient = vision::Vector6d::Zero();
       for (size_t i = 0; i < points_.size(); ++i) {

@@ -28,7 +28,7 @@ struct RansacResult {
 
 /// Camera motion between two frames by RANSAC [Fischler and Bolles 1981]: rigid motions of point triples with Horn's
 /// quaternion method [Lu2015 3], scored by the reprojection errors of all points. Each new best motion is refined on
-/// its inliers; without a supported guess, each promising one. `guesses`, e.g. the predicted motion, are scored first. `parameters`: iterations, threshold and seed.
+/// its inliers. `guesses`, e.g. the predicted motion, are scored first. `parameters`: iterations, threshold and seed.
 /// Deterministic. Returns nullopt if no motion has three inliers.
 std::optional<RansacResult> estimate_motion(const vision::RectifiedStereo& stereo, std::span<const PointPair> pairs,
                                             std::span<const Eigen::Isometry3d> guesses,
