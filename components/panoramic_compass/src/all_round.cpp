@@ -24,6 +24,7 @@ constexpr double kMinFoundShare = 0.15;               // of the reference points
 constexpr std::size_t kMaxEarlier = 3;                // references before that are still followed
 constexpr std::size_t kMinEarlier = 15;               // points of the reference before, to be of use
 constexpr int kMaxFailures = 3;                       // consecutive failures before a new reference is taken
+constexpr std::size_t kMinBeside = 10;                // points on each side
 constexpr double kSideSector_rad = 0.6;               // on each side of the lateral direction
 constexpr double kAhead = 0.05;        // sine: closer to the direction of travel, the magnification is undefined
 constexpr double kMaxMagnified = 1.6;  // larger changes are clamped
@@ -255,12 +256,18 @@ class AllRound final : public PanoramicCompass::Method {
     return fit.drift_azimuth_variance_rad2 + by_turn_rad2 / std::max(parallax * parallax, by_turn_rad2);
   }
 
-  /// Parallax of the points beside the vehicle, after removing the turn [Lu2015 6].
+  /// Parallax of the points beside the vehicle, after removing the turn [Lu2015 6]. If only few are there, as in open
+  /// land, they may be far away or badly tracked: then at least half of what the nearer of all points moved, in any
+  /// direction.
   static double side_parallax(const std::vector<BearingPair>& pairs, const TurnFit& fit) {
     std::vector<double> left, right;
+    double moved_rad = 0.0, squared = 0.0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (!fit.agrees[i]) continue;
       const Eigen::Vector3d far = fit.now_from_then * pairs[i].then;
+      const double by_rad = far.cross(pairs[i].now).norm();
+      moved_rad += by_rad;
+      squared += by_rad * by_rad;
+      if (!fit.agrees[i]) continue;
       const double azimuth = std::atan2(far.y(), far.x());
       const double moved =
           vision::wrap(std::atan2(pairs[i].now.y(), pairs[i].now.x()) - azimuth, 2.0 * std::numbers::pi);
@@ -268,9 +275,12 @@ class AllRound final : public PanoramicCompass::Method {
       if (azimuth > 0.0) left.push_back(moved);
       if (azimuth < 0.0) right.push_back(-moved);
     }
-    if (left.empty() || right.empty())
-      return left.empty() ? right.empty() ? 0.0 : vision::median(right) : vision::median(left);
-    return 0.5 * (vision::median(left) + vision::median(right));
+    double beside = 0.0;
+    if (!left.empty() && !right.empty()) beside = 0.5 * (vision::median(left) + vision::median(right));
+    if (left.empty() != right.empty()) beside = vision::median(left.empty() ? right : left);
+    if (std::min(left.size(), right.size()) >= kMinBeside || moved_rad == 0.0) return beside;
+    const double near = 0.5 * squared / moved_rad;
+    return std::abs(beside) > near ? beside : std::copysign(near, -fit.drift.x());
   }
 
   void describe_sectors(std::int64_t stamp_ns) {

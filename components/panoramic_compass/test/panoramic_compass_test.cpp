@@ -347,6 +347,31 @@ TEST(PointsAllRound, DoNotFollowTheCloudsOfOpenLand) {
   EXPECT_NEAR(turn.change_rad, 8.0 * kColumn_rad, 0.3 * kColumn_rad);
 }
 
+TEST(PointsAllRound, TellThatTheyMoveWhereWhatIsAbeamIsFar) {
+  const auto view = [](double near_moved_rad) {
+    cv::Mat land(kRows, kColumns, CV_8UC1, cv::Scalar(200));
+    land.rowRange(kRows / 2, kRows).setTo(cv::Scalar(85));
+    cv::RNG same(7);
+    for (int i = 0; i < 150; ++i) {  // trees: those ahead and behind are near, the few abeam are far
+      const double azimuth = same.uniform(-pi, pi);
+      const int wide = same.uniform(6, 16), grey = same.uniform(15, 70);
+      const bool is_abeam = std::abs(std::abs(azimuth) - pi / 2.0) < 0.7;
+      if (is_abeam && i % 20 != 0) continue;
+      const double seen = azimuth + (is_abeam ? 0.0 : near_moved_rad * std::sin(azimuth));
+      const int column = static_cast<int>(std::lround((pi - seen) / kColumn_rad));
+      for (const int round : {-kColumns, 0, kColumns})
+        cv::rectangle(land, cv::Rect{column + round, 250, wide, 24}, cv::Scalar(grey), -1);
+    }
+    cv::GaussianBlur(land, land, cv::Size(5, 5), 1.0);
+    return land;
+  };
+  const AzimuthChange moved = change_all_round(view(0.0), view(0.06));
+  EXPECT_TRUE(moved.valid) << moved.reason;
+  EXPECT_GT(moved.side_parallax_rad, 0.01);
+  const AzimuthChange stood = change_all_round(view(0.0), view(0.0));
+  EXPECT_LT(std::abs(stood.side_parallax_rad), 0.002);
+}
+
 TEST(PointsAllRound, TurnAboutTheVehiclesAxisWhereTheCameraIsTilted) {
   const cv::Mat street = paint_panorama();
   // the camera looks left: turns are unaffected, the direction of motion changes
