@@ -41,7 +41,7 @@ TEST(Report, HasNoDoubtsAboutAGoodCalibration) {
 }
 
 TEST(Report, DoubtsFewImagesInTheMiddleThatAreNoisy) {
-  const auto found = doubts(report_of(8, 4.0, 0.9));
+  const auto found = doubts(report_of(8, 8.0, 0.9));
   EXPECT_THAT(found, Contains(AllOf(HasSubstr("camera_0"), HasSubstr("only 8 images"))));
   EXPECT_THAT(found, Contains(AllOf(HasSubstr("camera_1"), HasSubstr("cover"), HasSubstr("borders"))));
   EXPECT_THAT(found, Contains(AllOf(HasSubstr("px off"), HasSubstr("--model"))));
