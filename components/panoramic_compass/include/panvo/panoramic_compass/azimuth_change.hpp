@@ -13,7 +13,7 @@ struct AzimuthChange {
   double change_rad = 0.0;  ///< later minus earlier yaw, about the upward axis of the vehicle, left positive, (-pi, pi]
   double variance_rad2 = 0.0;  ///< of change_rad
   /// Mean backward shift of objects beside the vehicle, both sides: about travelled distance / object distance;
-  /// negative when driving backwards [Lu2015 6].
+  /// negative when driving backwards [Lu2015 6]. If few are there: at least half of what the nearer of all moved.
   double side_parallax_rad = 0.0;
   double motion_azimuth_rad =
       0.0;  ///< direction of motion relative to the current forward axis, left positive, [-pi, pi]
