@@ -227,6 +227,8 @@ TEST(Validity, OfALandmarkNeedsFeaturesAndKeypointsThatAreSome) {
   message = landmark();
   message.id(0);
   EXPECT_EQ(problem(message), "id is 0");
+  message.id(4'000'000'001);
+  EXPECT_EQ(problem(message), "id is above 4000000000");
 }
 
 TEST(Validity, OfLandmarkPosesNeedsOnePoseForEachId) {

@@ -5,11 +5,11 @@
 source "$PANVO_SCRIPTS/lib/packages.sh"
 source "$PANVO_SCRIPTS/lib/arm64.sh"
 
-# cmake_arguments NAME: CMake arguments of a build type; the same as the presets in CMakePresets.json.
+# cmake_arguments NAME: CMake arguments of a build type, as the presets in CMakePresets.json; with $CI, warnings of release and arm64 are errors.
 cmake_arguments() {
   case $1 in
     release) echo "-DCMAKE_BUILD_TYPE=Release -DPANVO_WARNINGS_AS_ERRORS=$([[ -n ${CI:-} ]] && echo ON || echo OFF)" ;;
-    debug) echo -DCMAKE_BUILD_TYPE=Debug -DPANVO_UNITY=OFF ;;
+    debug) echo -DCMAKE_BUILD_TYPE=Debug -DPANVO_UNITY=OFF -DPANVO_PRECOMPILED_HEADERS=OFF ;;
     asan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=address ;;
     ubsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=undefined ;;
     tsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=thread ;;

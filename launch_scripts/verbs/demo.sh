@@ -17,10 +17,10 @@ cached) with an aged stereo calibration, traffic, rain and sudden light changes,
 stereo odometry, places, compass, localizer, recorder. Then it compares two trajectories with ground truth, the drifting stereo odometry
 and the one corrected at recognised places, and writes an HTML report.
 
-  --full          the journeys of the paper: 'dataset_i' (3.1 km), then 'dataset_ii' (1.4 km) with the place library of the first.
+  --full          the journeys of the paper: 'dataset_i' (3.1 km), then 'dataset_ii' (1.4 km) with the landmark store of the first.
                   Rendering them takes most of an hour on two cores, once; an interrupted rendering is resumed
   --seed N        random seed of the campus (default: 4; with --full 1)
-  --effects LIST  disturbances, as in 'panvo simulate' (default: all; with --full none)
+  --effects LIST  effects, as in 'panvo simulate' (default: all; with --full none)
   --dataset DIR   use this recording instead of the simulation
   --out DIR       new folder for the results (default: runs/demo-1, demo-2, ...)
   --replay        one thread, in stamp order, bit-identical results (default: one thread per component, as fast as
@@ -164,7 +164,7 @@ show_results() {
   cat <<EOT
 
 Results in $out
-$(result_line 'page' "$out/report.html")
+$(result_line 'report' "$out/report.html")
 $(result_line 'drive' "$out/drive.html")
 $(result_line 'plot' "$out/evaluation.png")
 $(result_line 'paths' "$out/odometry_enhanced.tum")

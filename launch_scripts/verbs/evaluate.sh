@@ -36,7 +36,7 @@ after each revisit, the errors of both trajectories, and the time each stage too
 drive.html is the page of 'panvo view' with this drive, its pictures, and a cursor that moves along it.
 
   --run RUN        evaluate this run of RECORDING instead of a new one
-  --library FILE   landmark library of an earlier journey (landmark_store.file); new landmarks are added to it. Also name that
+  --library FILE   landmark store of an earlier journey (landmark_store.file); new landmarks are added to it. Also name that
                    journey's recording with --earlier: its start is the origin of the map
   --set C.P=V      set parameter P of component C
   --out DIR        folder for run and report (default: runs/journey-NAME)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: inspect, draw, merge and copy landmark libraries
+# summary: inspect, draw, merge and copy landmark stores
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -9,7 +9,7 @@ verb_usage() {
 usage: panvo landmarks info | show | merge | copy ...
        panvo landmarks junctions DATASET [options]    (see panvo landmarks junctions --help)
 
-A landmark library holds the places that a run can recognise: one SQLite file, or a PostgreSQL database for several robots.
+A landmark store holds the places that a run can recognise: one SQLite file, or a PostgreSQL database for several robots.
 EOT
   show_program_help panvo_landmarks
 }

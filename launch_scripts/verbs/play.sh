@@ -11,9 +11,9 @@ usage: panvo play BAG [TOPIC...] [--rate R] [--start-paused] [--exclude TOPIC] [
 
 Publishes the messages of BAG (a rosbag2 folder, or one .db3 or .mcap file) under the recorded topic names. TOPIC is a name or a
 regular expression that must match the whole name; default: all topics. The services of rosbag2's player control it:
-/rosbag2_player/pause, resume, toggle_paused, is_paused, seek, get_rate, set_rate.
+/rosbag2_player/pause, resume, toggle_paused, is_paused, seek, get_rate, set_rate (refused at rate 0).
 
-  --rate R          play at R times the recorded speed; 0: as fast as possible
+  --rate R          play at R times the recorded speed (default 0: as fast as possible)
   --start-paused    play nothing before /rosbag2_player/resume is called
   --exclude TOPIC   do not play this topic
 EOT

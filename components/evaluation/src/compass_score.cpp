@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <vector>
 
 #include "panvo/vision/angle.hpp"
 #include "panvo/vision/equirectangular.hpp"
@@ -20,6 +22,36 @@ double true_change_rad(const RecordedPanorama& then, const RecordedPanorama& now
   return yaw_of(then.world_from_base.inverse() * now.world_from_base);
 }
 
+/// Errors of the heading accumulated from valid changes. No valid change leads to a reference taken after failures: the
+/// turn up to it is unknown, and a new chain begins.
+class HeadingErrors {
+ public:
+  void add(std::int64_t from_ns, std::int64_t to_ns, double change_error_rad) {
+    const auto [from, is_unknown] = at_.try_emplace(from_ns, 0.0);
+    if (is_unknown) chains_.emplace_back();
+    const double error = from->second + change_error_rad;
+    at_[to_ns] = error;
+    chains_.back().push_back(error);
+  }
+
+  /// RMS over all windows of kDriftPanoramas within a chain; nullopt if there are none.
+  std::optional<double> drift_rms_rad() const {
+    double squares = 0.0;
+    int windows = 0;
+    for (const auto& errors : chains_) {
+      for (std::size_t i = kDriftPanoramas; i < errors.size(); ++i, ++windows) {
+        squares += std::pow(errors[i] - errors[i - kDriftPanoramas], 2);
+      }
+    }
+    if (windows == 0) return std::nullopt;
+    return std::sqrt(squares / windows);
+  }
+
+ private:
+  std::map<std::int64_t, double> at_;
+  std::vector<std::vector<double>> chains_;
+};
+
 }  // namespace
 
 CompassScore score_compass(const Eigen::Matrix3d& base_from_panorama, const std::vector<RecordedPanorama>& panoramas,
@@ -32,8 +64,7 @@ CompassScore score_compass(const Eigen::Matrix3d& base_from_panorama, const std:
   double squares = 0.0, whitened = 0.0, step_squares = 0.0, last_error = 0.0;
   int steps = 0;
   std::int64_t last_from = -1;
-  std::map<std::int64_t, double> error_at;  // heading error of the accumulated changes
-  std::vector<double> headings;
+  HeadingErrors headings;
   for (const RecordedPanorama& panorama : panoramas) {
     by_stamp[panorama.stamp_ns] = &panorama;
     const auto change = compass.track(panorama.stamp_ns, cv::imread(panorama.file.string()));
@@ -54,9 +85,7 @@ CompassScore score_compass(const Eigen::Matrix3d& base_from_panorama, const std:
     }
     errors.push_back(std::abs(error));
     const double step_error = change->from_stamp_ns == last_from ? error - last_error : error;
-    const double heading_error = error_at[change->from_stamp_ns] + error;
-    error_at[panorama.stamp_ns] = heading_error;
-    headings.push_back(heading_error);
+    headings.add(change->from_stamp_ns, panorama.stamp_ns, error);
     step_squares += step_error * step_error;
     ++steps;
     last_from = change->from_stamp_ns;
@@ -69,12 +98,7 @@ CompassScore score_compass(const Eigen::Matrix3d& base_from_panorama, const std:
   score.p95_deg = errors[errors.size() * 95 / 100] / vision::kDegree;
   score.worst_deg = errors.back() / vision::kDegree;
   score.consistency = whitened / count;
-  double drift = 0.0;
-  for (std::size_t i = kDriftPanoramas; i < headings.size(); ++i) {
-    drift += std::pow(headings[i] - headings[i - kDriftPanoramas], 2);
-  }
-  const auto windows = static_cast<double>(std::max(headings.size(), kDriftPanoramas + 1) - kDriftPanoramas);
-  score.drift_rms_deg = std::sqrt(drift / windows) / vision::kDegree;
+  if (const auto drift_rad = headings.drift_rms_rad()) score.drift_rms_deg = *drift_rad / vision::kDegree;
   score.step_rms_deg = std::sqrt(step_squares / steps) / vision::kDegree;
   return score;
 }

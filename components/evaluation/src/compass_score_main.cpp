@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // panvo_compass_score: accuracy of the compass on recordings with ground truth.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,12 @@
 
 #include "panvo/evaluation/compass_score.hpp"
 #include "panvo/evaluation/journey_recording.hpp"
+
+namespace {
+
+enum ExitStatus { kSuccess = 0, kFailed = 1, kUsage = 2 };
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace panvo::evaluation;
@@ -33,7 +41,11 @@ int main(int argc, char** argv) {
   app.add_option("--first", first, "index of the first panorama");
   app.add_option("--count", count, "number of panoramas; 0: all");
   app.add_flag("--list", list, "list every change: stamps, change, truth and sigma in deg, parallax, validity");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kSuccess : kUsage;
+  }
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   for (const std::string& folder : recordings) {
     try {
@@ -49,15 +61,16 @@ int main(int argc, char** argv) {
       all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size())));
       if (count > 0 && count < all.size()) all.resize(count);
       const CompassScore s = score_compass(recording.base_from_panorama.linear(), all, parameters, look);
+      const std::string drift = s.drift_rms_deg ? fmt::format("{:.4f}", *s.drift_rms_deg) : "unknown";
       std::printf(
-          "%s: %d of %d valid, RMS %.4f deg, p95 %.4f, worst %.3f (at %lld), step RMS %.4f, drift over 50 %.4f, "
+          "%s: %d of %d valid, RMS %.4f deg, p95 %.4f, worst %.3f (at %lld), step RMS %.4f, drift over 50 %s, "
           "consistency %.2f\n",
           folder.c_str(), s.valid, s.changes, s.rms_deg, s.p95_deg, s.worst_deg, static_cast<long long>(s.worst_ns),
-          s.step_rms_deg, s.drift_rms_deg, s.consistency);
+          s.step_rms_deg, drift.c_str(), s.consistency);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "%s\n", error.what());
-      return 1;
+      return kFailed;
     }
   }
-  return 0;
+  return kSuccess;
 }

@@ -37,12 +37,13 @@ struct Arguments {
 };
 
 void describe(CLI::App& app, Arguments& arguments) {
-  app.add_option("run", arguments.run, "run folder of enhanced_vo, from `panvo run --out`")->required();
+  app.add_option("run", arguments.run, "run folder of enhanced_vo or stereo_places, from `panvo run --out`")
+      ->required();
   app.add_option("--recording", arguments.recording,
                  "recording that was played: EuRoC/ASL data set with ground truth and, for revisits and pictures, "
                  "sequence.yaml and cam2 (default: the ground truth in the run folder)");
   app.add_option("--earlier", arguments.earlier,
-                 "for a second journey: recording that built the landmark library; its start is the origin of the map");
+                 "for a second journey: recording that built the landmark store; its start is the origin of the map");
   app.add_option("--paper-run", arguments.paper_run,
                  "run of the same recording with the paper's own correction, for comparison");
   app.add_option("--out", arguments.out,

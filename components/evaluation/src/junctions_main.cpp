@@ -17,6 +17,8 @@ namespace {
 using namespace panvo::evaluation;
 using namespace panvo::landmark_builder;
 
+enum ExitStatus { kSuccess = 0, kFailed = 1, kUsage = 2 };
+
 struct Options {
   std::string dataset, out, criterion = "arms";
   std::vector<int> frames;
@@ -89,7 +91,7 @@ int run(const Options& options) {
               detections.size(), times_ms[times_ms.size() / 2], times_ms[times_ms.size() * 95 / 100]);
   if (!recording.places.empty())
     print_score(score_junctions(panoramas, recording.places, detections, options.radius_m));
-  return 0;
+  return kSuccess;
 }
 
 }  // namespace
@@ -112,12 +114,16 @@ int main(int argc, char** argv) {
   app.add_flag("--grey", options.grey, "convert the panoramas to grey");
   app.add_flag("--single", options.single, "evaluate each panorama individually, as in the paper");
   app.add_flag("--verbose", options.is_verbose, "print one line per panorama");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kSuccess : kUsage;
+  }
   cv::setNumThreads(1);
   try {
     return run(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "panvo landmarks junctions: %s\n", error.what());
-    return 1;
+    return kFailed;
   }
 }

@@ -34,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace panvo::evaluation;
 
-enum ExitStatus { kSuccess = 0, kFailed = 1, kNoPlot = 3 };
+enum ExitStatus { kSuccess = 0, kFailed = 1, kUsage = 2, kNoPlot = 3 };
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
@@ -257,7 +257,11 @@ int main(int argc, char** argv) {
       "matching of the whole journey",
       "panvo evaluate places");
   describe(app, arguments);
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kSuccess : kUsage;
+  }
   try {
     return run(arguments);
   } catch (const PlotError& error) {

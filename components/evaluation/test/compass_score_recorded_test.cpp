@@ -26,7 +26,8 @@ void expect_honest_and_exact(const std::filesystem::path& folder) {
   EXPECT_LT(all.worst_deg, 0.15);
   EXPECT_GT(all.consistency, 0.15);
   EXPECT_LT(all.consistency, 2.0);
-  EXPECT_LT(all.drift_rms_deg, 0.25);
+  ASSERT_TRUE(all.drift_rms_deg);
+  EXPECT_LT(*all.drift_rms_deg, 0.25);
 }
 
 TEST(RecordedCampusClip, GivesEveryTurnWithAnHonestVariance) {

@@ -65,8 +65,14 @@ TEST_F(PlacesProgram, OtherwiseAsksForPlacesThatOccur) {
 }
 
 TEST_F(PlacesProgram, DoesNotLeaveOutBothParts) {
-  EXPECT_NE(call(pair_ + " --only-journey --only-table"), 0);
+  EXPECT_EQ(call(pair_ + " --only-journey --only-table"), 2);
   EXPECT_THAT(folder_.read("err.txt"), HasSubstr("--only-table excludes --only-journey"));
+}
+
+TEST_F(PlacesProgram, FailsOnBadUsageAndExplainsItself) {
+  EXPECT_EQ(call(""), 2);
+  EXPECT_THAT(folder_.read("err.txt"), HasSubstr("recording is required"));
+  EXPECT_EQ(call("--help"), 0);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace panvo::fleet {
 namespace {
 
 constexpr int kMaxContradictions = 3;
+constexpr int kMaxOvertaken = 3;
 constexpr std::int64_t kInFlight_ns = 500'000'000;  // changes may be heard after the announcement that counts them
 constexpr std::size_t kMaxNews = 100;
 
@@ -33,12 +34,11 @@ std::optional<std::string> Members::hear(const Announcement& said, std::int64_t 
   } else if (member->map.session() != said.session) {
     member->last = said;
     start_again(*member, "was restarted with its stored map");
-  } else if (said.version < member->map.version()) {
-    start_again(*member, "went back to an earlier version of its map");
   }
   if (!member->is_present) news_.push_back(fmt::format("{} is back", said.robot));
   member->is_present = true;
   member->heard_ns = now_ns;
+  if (is_overtaken(*member, said)) return std::nullopt;
   member->last = said;
   compare(*member, now_ns);
   return std::nullopt;
@@ -104,6 +104,7 @@ void Members::begin(const Announcement& said) {
                                    {},
                                    {},
                                    0,
+                                   0,
                                    0});
 }
 
@@ -112,6 +113,19 @@ void Members::start_again(Member& member, const std::string& why) {
   restarted_.push_back(member.map.id());
   member.map = SharedMap(member.map.id(), member.last.session, static_cast<std::size_t>(parameters_.max_places));
   member.asked_ns.reset();
+}
+
+/// Whether changes that were sent later, on a topic of their own, arrived before this announcement. Only a robot that
+/// went back announces less than was received again and again: then its map is started again.
+bool Members::is_overtaken(Member& member, const Announcement& said) {
+  if (said.version > member.last.version || said.version >= member.map.version()) {
+    member.overtaken = 0;
+    return false;
+  }
+  if (++member.overtaken < kMaxOvertaken) return true;
+  member.overtaken = 0;
+  start_again(member, "went back to an earlier version of its map");
+  return false;
 }
 
 /// Whether the replica has what was announced.

@@ -12,12 +12,15 @@ constexpr double kMaxStep_s = 1.0;  // a longer pause is no motion at the speed 
 
 void PoseTrail::add(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_base, const vision::Matrix6d& covariance,
                     double speed_m_per_s) {
+  const auto order = stamps_.add(stamp_ns);
+  if (order == vision::StampOrder::kNotLater) return;
   double travelled_m = 0.0;
   if (!samples_.empty()) {
-    if (stamp_ns <= samples_.back().stamp_ns) return;
+    // negative if the clock was set back
     const double step_s = 1e-9 * static_cast<double>(stamp_ns - samples_.back().stamp_ns);
-    travelled_m = samples_.back().travelled_m + speed_m_per_s * std::min(step_s, kMaxStep_s);
+    travelled_m = samples_.back().travelled_m + speed_m_per_s * std::clamp(step_s, 0.0, kMaxStep_s);
   }
+  if (order == vision::StampOrder::kSetBack) samples_.clear();
   samples_.push_back({stamp_ns, map_from_base, covariance, travelled_m});
   if (samples_.size() > kMaxSamples) samples_.pop_front();
 }

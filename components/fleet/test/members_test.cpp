@@ -137,6 +137,50 @@ TEST_F(FleetMembers, ReceiveAStoredMapAgainFromARestartedRobot) {
   EXPECT_EQ(replica().digest(), after.digest());
 }
 
+TEST_F(FleetMembers, KeepAMapWhoseChangesOvertookItsAnnouncement) {
+  owner_.add(place_at(1, flat(0, 0, 0)));
+  announce();
+  send(0);
+  now_ += kSecond;
+  const auto repeated = announcement();
+  owner_.add(place_at(2, flat(9, 0, 0)));
+  const auto newer = announcement();
+  owner_.add(place_at(3, flat(18, 0, 0)));
+  send(1);
+  for (const auto& delayed : {repeated, newer}) {
+    EXPECT_EQ(members_.hear(delayed, now_), std::nullopt);
+    EXPECT_EQ(replica().digest(), owner_.digest());
+    EXPECT_EQ(members_.find(7)->last.version, delayed.version);
+  }
+  EXPECT_TRUE(members_.take_restarted().empty());
+  now_ += kSecond;
+  announce();
+  EXPECT_TRUE(members_.gaps(now_ + kSecond, 9).empty());
+}
+
+TEST_F(FleetMembers, ReceiveAMapAgainThatIsAnnouncedInAnEarlierVersionThreeTimes) {
+  owner_.add(place_at(1, flat(0, 0, 0)));
+  const auto earlier = announcement();
+  owner_.add(place_at(2, flat(9, 0, 0)));
+  announce();
+  send(0);
+  const auto say_earlier = [&] {
+    now_ += kSecond;
+    members_.hear(earlier, now_);
+    return members_.take_restarted();
+  };
+  EXPECT_TRUE(say_earlier().empty());
+  EXPECT_TRUE(say_earlier().empty());
+  announce();
+  EXPECT_TRUE(say_earlier().empty()) << "in a row";
+  EXPECT_TRUE(say_earlier().empty());
+  EXPECT_EQ(members_.find(7)->last.version, 2U) << "not the last one";
+  EXPECT_EQ(say_earlier(), std::vector<MapId>{7});
+  EXPECT_EQ(replica().version(), 0U);
+  EXPECT_EQ(members_.gaps(now_ + kSecond, 9).size(), 1U);
+  EXPECT_THAT(members_.take_news(), Contains(HasSubstr("went back to an earlier version")));
+}
+
 TEST_F(FleetMembers, SayWhoLeftAndWhoIsBack) {
   announce();
   members_.advance(now_ + 6 * kSecond);

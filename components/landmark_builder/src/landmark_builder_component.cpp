@@ -21,6 +21,7 @@
 #include "panvo/landmarks/panorama_level.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/vision/panorama_watch.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 
 namespace panvo::landmark_builder {
 
@@ -133,10 +134,20 @@ class LandmarkBuilderComponent final : public runtime::Component {
                                            pose.reason());
     }
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
-    if (!odometry_.empty() && stamp_ns <= odometry_.back().stamp_ns) return;
+    const auto order = stamps_.add(stamp_ns);
+    if (order == vision::StampOrder::kNotLater) return;
+    if (order == vision::StampOrder::kSetBack) begin_anew();
     odometry_.push_back({stamp_ns, *pose, conversions::to_matrix(message.pose().covariance())});
     if (odometry_.size() > kMaxOdometry) odometry_.pop_front();
     work_off();
+  }
+
+  /// The clock was set back: stamps of the time before would be taken for those of the new time.
+  void begin_anew() {
+    odometry_.clear();
+    waiting_.clear();
+    last_stamp_ns_.reset();
+    builder_.reset();
   }
 
   void on_panorama(const std::shared_ptr<const sensor_msgs::msg::Image>& message) {
@@ -246,6 +257,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
   cv::Size size_;
   cv::Mat seen_;                        // all but the vehicle; empty: unknown
   std::int64_t panorama_ahead_ns_ = 0;  // the panoramic camera's clock
+  vision::StampSequence stamps_;        // of the odometry
   std::deque<Odometry> odometry_;
   Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<std::shared_ptr<const sensor_msgs::msg::Image>> waiting_;

@@ -56,9 +56,9 @@ class LandmarkBuilderComponent : public ::testing::Test {
 
   /// Drives through the crossing at the origin; odometry 20 ms before and after each panorama. With its clock ahead,
   /// the panoramic camera stamps 0.3 s more, which becomes known at `known_m`.
-  void drive(std::optional<double> known_m = std::nullopt) {
-    for (double x = -28.0; x < 24.0; x += 1.0) {
-      const auto stamp_ns = static_cast<std::int64_t>(1e9 * (100.0 + 0.2 * x));
+  void drive(std::optional<double> known_m = std::nullopt, double from_m = -28.0, double to_m = 24.0) {
+    for (double x = from_m; x < to_m; x += 1.0) {
+      const auto stamp_ns = static_cast<std::int64_t>(1e9 * (100.0 + ahead_s_ + 0.2 * x));
       publish_odometry(stamp_ns - 20'000'000, PaintedTown::at(x - 0.1, -1.5, 0.0));
       if (x == known_m) publish_time_reference();
       publish_panorama(stamp_ns + (known_m ? 300'000'000 : 0), town_.panorama(PaintedTown::at(x, -1.5, 0.0)));
@@ -67,6 +67,7 @@ class LandmarkBuilderComponent : public ::testing::Test {
   }
 
   const PaintedTown town_ = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
+  double ahead_s_ = 0.0;  // all clocks
   runtime::ComponentHarness harness_;
   const std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>>& landmarks_ =
       harness_.collect(topics::kLandmarks);
@@ -129,6 +130,37 @@ TEST_F(LandmarkBuilderComponent, ReplacesThePosesOfEarlierPanoramasWhenTheClockI
   const double x = landmarks_[0]->pose().pose().position().x();
   EXPECT_LT(x, 4.0);
   EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(*landmarks_[0])) * 1e-9, 100.3 + 0.2 * x, 1e-3);
+}
+
+TEST_F(LandmarkBuilderComponent, BuildsOnIfTheClockIsSetBack) {
+  load({{"rule.first_m", "4"}});
+  publish_mounting();
+  ahead_s_ = 600.0;
+  drive(std::nullopt, -31.0, -28.0);
+  publish_panorama(700'000'000'000, town_.panorama(PaintedTown::at(-28.0, -1.5, 0.0)));  // its odometry does not come
+  EXPECT_THAT(landmarks_, IsEmpty());
+  ahead_s_ = 0.0;
+  drive();
+  EXPECT_FALSE(harness_.log_contains("no landmarks are built")) << "the others need not wait for that odometry";
+  ASSERT_FALSE(landmarks_.empty());
+  for (const auto& landmark : landmarks_) {
+    const double x = landmark->pose().pose().position().x();
+    EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(*landmark)) * 1e-9, 100.0 + 0.2 * x, 1e-3);
+  }
+  EXPECT_TRUE(landmarks_.back()->is_junction());
+}
+
+/// When the crossing is passed, it is as late as it was 20 m before by the clock of then.
+TEST_F(LandmarkBuilderComponent, TakesNoPanoramaOfTheSameStampFromBeforeTheClockWasSetBack) {
+  load();
+  publish_mounting();
+  ahead_s_ = 4.0;
+  drive(std::nullopt, -28.0, -16.0);
+  ahead_s_ = 0.0;
+  drive(std::nullopt, -16.0);
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  EXPECT_TRUE(landmarks_[0]->is_junction());
+  EXPECT_LT(std::abs(landmarks_[0]->pose().pose().position().x()), 4.0);
 }
 
 TEST_F(LandmarkBuilderComponent, SaysThatThereIsNoOdometry) {

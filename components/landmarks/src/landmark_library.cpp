@@ -41,7 +41,7 @@ LandmarkLibrary::LandmarkLibrary(std::shared_ptr<const LandmarkSource> source, D
 
 std::uint32_t LandmarkLibrary::add(PanoramicLandmark landmark) {
   if (landmark.id == 0) landmark.id = next_id();
-  if (landmark.id == 0) throw std::invalid_argument("the library has no ids left");
+  if (landmark.id > kMaxLandmarkId) throw std::invalid_argument("the library has no ids left");
   check_pose(landmark.map_from_base, landmark.id);
   if (!fits(landmark.description, limits_)) {
     throw std::invalid_argument("landmark " + std::to_string(landmark.id) +

@@ -49,7 +49,10 @@ std::string copy_problem(const StoredLandmark& stored, const DescriptionSettings
 /// Adds one landmark with its use; returns its id.
 std::uint32_t add_row(StoreBackend& backend, const std::string& name, StoredLandmark row, IfTaken if_taken,
                       const std::optional<LandmarkUse>& use) {
-  if (row.id == 0 || (if_taken == IfTaken::kNextId && backend.is_taken(row.id))) {
+  // Where others write, a free id may be that of a landmark which was removed: those who still know it would move the
+  // new one instead.
+  const bool gets_next = if_taken == IfTaken::kNextId && (backend.is_shared() || backend.is_taken(row.id));
+  if (row.id == 0 || gets_next) {
     row.id = backend.next_id();
   } else if (backend.is_taken(row.id)) {
     throw StoreError(name + ": already contains landmark " + std::to_string(row.id) +
@@ -103,6 +106,8 @@ void LandmarkStore::require(const DescriptionSettings& settings) const {
   throw StoreError(sentence + ". Use the settings of the store, or another " +
                    (backend_->is_shared() ? "database" : "file"));
 }
+
+void LandmarkStore::wait_for_locks(int limit_ms) noexcept { backend_->wait_for_locks(limit_ms); }
 
 std::uint32_t LandmarkStore::add(const PanoramicLandmark& landmark, IfTaken if_taken,
                                  const std::optional<LandmarkUse>& use) {
@@ -220,6 +225,8 @@ std::size_t LandmarkStore::become_copy_of(const LandmarkStore& other, bool repla
 }
 
 std::size_t LandmarkStore::size() const { return backend_->size(); }
+
+std::uint32_t LandmarkStore::last_id() const { return static_cast<std::uint32_t>(backend_->last_id()); }
 
 void LandmarkStore::for_each(const std::function<void(PanoramicLandmark)>& visit,
                              const std::function<void(const std::string&)>& report) const {

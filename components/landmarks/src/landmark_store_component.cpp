@@ -50,7 +50,8 @@ struct Parameters {
           0, 1000);
     field(
         &P::waiting, "waiting", "1",
-        "changes kept in memory while the database server does not answer; more are lost, and counted in /diagnostics",
+        "changes kept in memory while the database server does not answer or another process reads the file; more are "
+        "lost, those for a server counted in /diagnostics",
         10, 1'000'000);
     field(&P::answer_s, "answer_s", "s", "longest wait for an answer of the database server", 1, 600);
   }
@@ -81,9 +82,9 @@ class LandmarkStoreComponent final : public runtime::Component {
       std::unique_ptr<LandmarkStore> store;
       if (parameters_.read_only || LandmarkStore::exists(location_, patience_)) store = open();
       if (parameters_.read_only) return;
-      writer_ = location_.is_server()
-                    ? write_to_server(location_, settings_, patience_, static_cast<std::size_t>(parameters_.waiting))
-                    : write_to_file(location_, std::move(store));
+      const auto most_waiting = static_cast<std::size_t>(parameters_.waiting);
+      writer_ = location_.is_server() ? write_to_server(location_, settings_, patience_, most_waiting)
+                                      : write_to_file(location_, std::move(store), most_waiting);
     } catch (const StoreError& error) {
       throw runtime::ConfigError(error.what());
     }
@@ -238,7 +239,8 @@ class LandmarkStoreComponent final : public runtime::Component {
       added.use = uses_[landmark.id];
       added.use->session = session_;
     }
-    writer_->write(added);
+    // Not remembered, it is not moved later, either: by then, another robot's landmark may have its id.
+    if (!writer_->write(added)) return;
     if (added.use) uses_[landmark.id] = *added.use;
     remember(landmark.id);
   }
@@ -259,7 +261,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     if (!admission.is_kept) return false;
     if (admission.instead_of) {
       const auto outdated = ids[*admission.instead_of];
-      writer_->write(RemovedLandmark{outdated});
+      if (!writer_->write(RemovedLandmark{outdated})) return false;
       earlier_.erase(outdated);
       uses_.erase(outdated);
       stored_.erase(outdated);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "panvo/postgres/connection.hpp"
 #include "stored_landmark.hpp"
 
@@ -9,6 +11,8 @@ namespace panvo::landmarks {
 /// Selects up to $2 landmarks with ids above $1: their descriptions only, or all of them.
 extern const char* const kSelectDescriptions;
 extern const char* const kSelectWholeLandmarks;
+/// Selects the highest id that is taken or that was given.
+extern const std::string kSelectLastId;
 
 /// A row of these. Throws DatabaseError if a column has another type.
 StoredLandmark landmark_in(const postgres::Result& rows, int row, bool is_whole);

@@ -96,13 +96,10 @@ class PostgresStore final : public StoreBackend {
   }
 
   std::int64_t next_id() override {
-    const auto row =
-        run("UPDATE panvo.store SET last_id = greatest(last_id, (SELECT coalesce(max(id), 0) FROM panvo.landmark)) + 1 "
-            "RETURNING last_id");
-    const auto id = row.rows() == 0 ? 0 : row.integer(0, 0);
-    if (id < 1 || id > std::numeric_limits<std::uint32_t>::max()) {
-      throw StoreError(name_ + ": the store has no ids left");
-    }
+    keep_others_out();
+    const auto id = last_id() + 1;
+    if (id > kMaxLandmarkId) throw StoreError(name_ + ": the store has no ids left");
+    run("UPDATE panvo.store SET last_id = $1", {id});
     return id;
   }
 
@@ -129,7 +126,11 @@ class PostgresStore final : public StoreBackend {
     run("UPDATE panvo.landmark SET x=$1, y=$2, z=$3, qx=$4, qy=$5, qz=$6, qw=$7, covariance=$8 WHERE id=$9", values);
   }
 
-  void erase(std::int64_t id) override { run("DELETE FROM panvo.landmark WHERE id = $1", {id}); }
+  void erase(std::int64_t id) override {
+    // Ids of a copy were not given by next_id(), which must not give them again once they are gone.
+    run("UPDATE panvo.store SET last_id = $1 WHERE last_id < $1", {last_id()});
+    run("DELETE FROM panvo.landmark WHERE id = $1", {id});
+  }
 
   void put_use(std::int64_t id, const LandmarkUse& use) override {
     run("INSERT INTO panvo.landmark_use(landmark_id, passes, recognitions, missed, missed_in_company, session) "
@@ -187,6 +188,7 @@ class PostgresStore final : public StoreBackend {
   }
 
   std::size_t size() const override { return number("SELECT count(*) FROM panvo.landmark"); }
+  std::int64_t last_id() const override { return static_cast<std::int64_t>(number(kSelectLastId.c_str())); }
 
   void for_each(Parts parts, const std::function<void(const StoredLandmark&)>& visit) const override {
     const bool is_whole = parts == Parts::kAll;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A landmark store in an SQLite file.
-#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -68,11 +67,12 @@ class SqliteStore final : public StoreBackend {
     });
   }
 
+  void wait_for_locks(int limit_ms) noexcept override { database_->wait_for_locks(limit_ms); }
   void read_one_state(const std::function<void()>& action) const override { action(); }
 
   std::int64_t next_id() override {
-    const auto last = number("SELECT coalesce(max(id), 0) FROM landmark");
-    if (last >= std::numeric_limits<std::uint32_t>::max()) throw StoreError("the store has no ids left");
+    const auto last = last_id();
+    if (last >= kMaxLandmarkId) throw StoreError(file_.string() + ": the store has no ids left");
     return last + 1;
   }
 
@@ -173,6 +173,9 @@ class SqliteStore final : public StoreBackend {
   }
 
   std::size_t size() const override { return static_cast<std::size_t>(number("SELECT count(*) FROM landmark")); }
+  std::int64_t last_id() const override {
+    return number("SELECT coalesce(max(id), 0) FROM landmark WHERE id BETWEEN 0 AND " + std::to_string(kMaxLandmarkId));
+  }
 
   void for_each(Parts parts, const std::function<void(const StoredLandmark&)>& visit) const override {
     const bool is_whole = parts == Parts::kAll;
@@ -223,7 +226,7 @@ class SqliteStore final : public StoreBackend {
     try {
       return action();
     } catch (const sqlite::DatabaseError& error) {
-      throw StoreError(explain(file_, error, database_.get()));
+      throw_explained(file_, error, database_.get());
     }
   }
 

@@ -28,6 +28,8 @@ class StoreBackend {
   /// Runs `action` in one transaction that other writers see whole or not at all. An exception rolls it back. Where a
   /// connection is lost, `action` runs again.
   virtual void transact(const std::function<void()>& action) = 0;
+  /// Sets the longest wait for locks of other processes on a file.
+  virtual void wait_for_locks(int) noexcept {}
   /// Runs `action`, which only reads, on one state of the store.
   virtual void read_one_state(const std::function<void()>& action) const = 0;
 
@@ -51,6 +53,8 @@ class StoreBackend {
   virtual DescriptionSettings settings() const = 0;
   virtual Uses uses() const = 0;
   virtual std::size_t size() const = 0;
+  /// The highest id up to kMaxLandmarkId that is taken or that was given; 0: none.
+  virtual std::int64_t last_id() const = 0;
   /// In order of ids.
   virtual void for_each(Parts parts, const std::function<void(const StoredLandmark&)>& visit) const = 0;
   virtual Bytes keypoints(std::uint32_t id) const = 0;  ///< empty for an unknown id, like the next

@@ -8,32 +8,29 @@
 namespace panvo::landmarks {
 namespace {
 
-std::uint32_t stored_id(std::uint32_t id, const StoredIds* ids) {
-  if (!ids) return id;
-  const auto found = ids->find(id);
-  return found == ids->end() ? id : found->second;
-}
-
-void make(const NewLandmark& change, LandmarkStore& store, StoredIds* ids) {
+void make(const NewLandmark& change, LandmarkStore& store, StoredIds& ids) {
   store.require(change.settings);
-  const auto id = store.add(change.landmark, ids ? IfTaken::kNextId : IfTaken::kRefuse, change.use);
-  if (ids && id != change.landmark.id) ids->insert_or_assign(change.landmark.id, id);
+  const bool may_be_taken = change.landmark.id <= ids.last_known;
+  const auto id = store.add(change.landmark, may_be_taken ? IfTaken::kNextId : IfTaken::kRefuse, change.use);
+  ids.last_known = std::max(ids.last_known, id);
+  ids.known.insert_or_assign(change.landmark.id, id);
 }
 
-void make(const MovedLandmarks& change, LandmarkStore& store, StoredIds* ids) {
+void make(const MovedLandmarks& change, LandmarkStore& store, StoredIds& ids) {
   auto poses = change.poses;
-  for (auto& pose : poses) pose.id = stored_id(pose.id, ids);
+  for (auto& pose : poses) pose.id = ids.of(pose.id);
   store.set_poses(poses);
 }
 
-void make(const RemovedLandmark& change, LandmarkStore& store, StoredIds* ids) {
-  const auto id = stored_id(change.id, ids);
+void make(const RemovedLandmark& change, LandmarkStore& store, StoredIds& ids) {
+  const auto id = ids.of(change.id);
   store.remove(std::span(&id, 1));
+  ids.forget(change.id);
 }
 
-void make(const PassedLandmarks& change, LandmarkStore& store, StoredIds* ids) {
+void make(const PassedLandmarks& change, LandmarkStore& store, StoredIds& ids) {
   auto passes = change.passes;
-  for (auto& pass : passes) pass.id = stored_id(pass.id, ids);
+  for (auto& pass : passes) pass.id = ids.of(pass.id);
   store.count(passes);
 }
 
@@ -44,13 +41,18 @@ std::size_t weight_of(const StoreChange& change) {
 
 }  // namespace
 
-void apply(const StoreChange& change, LandmarkStore& store, StoredIds* ids) {
+std::uint32_t StoredIds::of(std::uint32_t id) const {
+  const auto found = known.find(id);
+  return found == known.end() ? id : found->second;
+}
+
+void apply(const StoreChange& change, LandmarkStore& store, StoredIds& ids) {
   std::visit([&](const auto& its) { make(its, store, ids); }, change);
 }
 
 bool PendingChanges::push(StoreChange change) {
   const auto weight = weight_of(change);
-  if (weight_ + weight > most_) {
+  if (weight_ > 0 && weight_ + weight > most_) {  // one that waits alone has room, however many passes it is
     refused_ += weight;
     return false;
   }

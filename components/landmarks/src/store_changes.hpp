@@ -31,12 +31,20 @@ struct PassedLandmarks {
 /// A change of a store, made by one transaction.
 using StoreChange = std::variant<NewLandmark, MovedLandmarks, RemovedLandmark, PassedLandmarks>;
 
-/// Ids of landmarks in a store that others write to, by the ids that this run knows them by.
-using StoredIds = std::map<std::uint32_t, std::uint32_t>;
+/// Ids of landmarks in a store, by those that a run knows them by.
+struct StoredIds {
+  /// A new landmark with an id up to this one may get another: its own may be that of a record that cannot be read, or of
+  /// another robot's landmark in a database. Beyond, a taken id is an error: a second process writes to the file.
+  std::uint32_t last_known = 0;
+  std::map<std::uint32_t, std::uint32_t> known;  ///< 0: not in the store; those that are missing are the same there
 
-/// Makes the change. With `ids`, a new landmark whose id another run has taken gets the next free one, which is
-/// remembered for later changes.
-void apply(const StoreChange& change, LandmarkStore& store, StoredIds* ids);
+  std::uint32_t of(std::uint32_t id) const;
+  /// A landmark that is not in the store, or no longer: later changes leave alone whichever has its id there.
+  void forget(std::uint32_t id) { known.insert_or_assign(id, 0); }
+};
+
+/// Makes the change, and remembers under which id a new landmark is stored.
+void apply(const StoreChange& change, LandmarkStore& store, StoredIds& ids);
 
 /// Changes that wait for a server, in order. A landmark is moved once, to its latest pose. Not thread-safe.
 class PendingChanges {

@@ -80,7 +80,7 @@ std::unique_ptr<Database> open(const fs::path& file, Database::Mode mode) {
     Statement(*database, "SELECT count(*) FROM sqlite_master").step();
   } catch (const DatabaseError& error) {
     if (error.primary_code() != SQLITE_CORRUPT) throw;
-    throw StoreError(explain(file, error, database.get()));
+    throw_explained(file, error, database.get());
   }
   // No other process can write at this point. SQLite itself would pad a truncated last page with zeros.
   if (const auto cut = cut_off(*database); !cut.empty()) throw StoreError(damaged(file, cut));
@@ -128,20 +128,26 @@ std::string explain(const fs::path& file, const DatabaseError& error, const Data
   }
 }
 
+void throw_explained(const fs::path& file, const DatabaseError& error, const Database* database) {
+  const int code = error.primary_code();
+  if (code == SQLITE_BUSY || code == SQLITE_LOCKED) throw StoreUnavailable(explain(file, error, database));
+  throw StoreError(explain(file, error, database));
+}
+
 std::unique_ptr<Database> open_to_read(const fs::path& file) {
   check_kind(file);
   if (!fs::exists(file)) throw StoreError(file.string() + ": does not exist; a run with landmark_store.file makes it");
   try {
     return open(file, Database::Mode::kRead);
   } catch (const DatabaseError& error) {
-    if (!needs_rollback(error)) throw StoreError(explain(file, error, nullptr));
+    if (!needs_rollback(error)) throw_explained(file, error, nullptr);
   }
   // A process was killed while writing: rolling back its transaction requires write access.
   try {
     open(file, Database::Mode::kReadWrite);
     return open(file, Database::Mode::kRead);
   } catch (const DatabaseError& error) {
-    throw StoreError(explain(file, error, nullptr));
+    throw_explained(file, error, nullptr);
   }
 }
 
@@ -155,7 +161,7 @@ std::unique_ptr<Database> open_to_write(const fs::path& file) {
     database->execute(kDurable);
     return database;
   } catch (const DatabaseError& error) {
-    throw StoreError(explain(file, error, nullptr));
+    throw_explained(file, error, nullptr);
   }
 }
 

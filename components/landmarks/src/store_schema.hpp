@@ -13,6 +13,9 @@ namespace panvo::landmarks {
 /// Turns an SQLite error into a message with file and remedy. `database`: the one that failed, if it was open.
 std::string explain(const std::filesystem::path& file, const sqlite::DatabaseError& error,
                     const sqlite::Database* database);
+/// Throws a StoreError that tells an SQLite error like this: StoreUnavailable for a lock of another process.
+[[noreturn]] void throw_explained(const std::filesystem::path& file, const sqlite::DatabaseError& error,
+                                  const sqlite::Database* database);
 
 /// Opens an existing store read-only. Rolls back a partial addition of a killed process. Throws StoreError.
 std::unique_ptr<sqlite::Database> open_to_read(const std::filesystem::path& file);

@@ -1,30 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "store_writer.hpp"
 
+#include <exception>
 #include <stdexcept>
+#include <utility>
 
 #include "panvo/postgres/worker.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
+/// Keeps changes while another process reads the file: its lock keeps a change from being completed.
 class FileWriter final : public StoreWriter {
  public:
-  FileWriter(StoreLocation location, std::unique_ptr<LandmarkStore> store)
-      : location_(std::move(location)), store_(std::move(store)) {}
+  FileWriter(StoreLocation location, std::unique_ptr<LandmarkStore> store, std::size_t most_waiting, int lock_ms)
+      : location_(std::move(location)), store_(std::move(store)), pending_(most_waiting), lock_ms_(lock_ms) {
+    if (store_) ids_.last_known = store_->last_id();
+  }
 
   void require(const DescriptionSettings& settings) override {
     if (!store_) store_ = std::make_unique<LandmarkStore>(location_, settings);
     store_->require(settings);
   }
-  void write(StoreChange change) override {
+
+  bool write(StoreChange change) override {
     if (!store_) throw std::logic_error("a change of a store that was not created");
-    apply(change, *store_, nullptr);
+    if (is_locked_) make_pending(0);  // first, for room
+    if (!pending_.push(std::move(change))) {
+      if (!is_full_) tell(true, "no room for more changes while it is locked: they are lost until there is");
+      is_full_ = true;
+      return false;
+    }
+    if (!is_locked_) make_pending(lock_ms_);
+    return true;
+  }
+
+  std::vector<StoreNotice> notices() override { return std::exchange(notices_, {}); }
+
+  void finish() override {
+    if (!is_locked_) return;
+    try {
+      make_pending(lock_ms_);
+    } catch (const std::exception& error) {
+      tell(true, error.what());
+    }
+    if (pending_.size() == 0) return;
+    tell(true, std::to_string(pending_.size()) + " changes are lost: it was locked until the end");
   }
 
  private:
-  StoreLocation location_;
+  void tell(bool is_error, const std::string& text) { notices_.push_back({is_error, location_.shown() + ": " + text}); }
+
+  void make_pending(int lock_ms) {
+    store_->wait_for_locks(lock_ms);
+    try {
+      while (current_ || (current_ = pending_.take())) {
+        apply(*current_, *store_, ids_);
+        drop_current();
+      }
+      if (is_locked_) tell(false, "is free again; all changes are stored");
+      is_locked_ = is_full_ = false;
+    } catch (const StoreUnavailable& error) {
+      if (!is_locked_)
+        notices_.push_back({true, std::string(error.what()) + ". Changes are kept in memory until then"});
+      is_locked_ = true;
+    } catch (const std::exception&) {
+      drop_current();  // it would fail again
+      throw;
+    }
+  }
+
+  void drop_current() {
+    current_.reset();
+    pending_.done();
+  }
+
+  const StoreLocation location_;
   std::unique_ptr<LandmarkStore> store_;
+  StoredIds ids_;
+  PendingChanges pending_;
+  std::shared_ptr<const StoreChange> current_;  // of these, until it is made
+  std::vector<StoreNotice> notices_;
+  const int lock_ms_;
+  bool is_locked_ = false;  // when a change was tried last
+  bool is_full_ = false;
 };
 
 /// Keeps changes until a thread has brought them to the server. The worker's lock guards what both threads use.
@@ -48,13 +107,17 @@ class ServerWriter final : public StoreWriter {
                      ". Use the settings of the store, or another database");
   }
 
-  void write(StoreChange change) override {
+  bool write(StoreChange change) override {
+    bool is_taken = false;
     worker_->locked([&] {
-      if (has_failed_ || pending_.push(std::move(change)) || is_full_) return;
+      if (has_failed_) return;
+      is_taken = pending_.push(std::move(change));
+      if (is_taken || is_full_) return;
       is_full_ = true;
       tell(true, "no room for more changes while the server does not answer: they are lost until there is");
     });
     worker_->wake();
+    return is_taken;
   }
 
   std::vector<StoreNotice> notices() override {
@@ -100,9 +163,9 @@ class ServerWriter final : public StoreWriter {
         if (!pause(attempt, error.what())) return false;
       } catch (const StoreError& error) {
         worker_->locked([&] { has_failed_ = true; });
-        return give_up(std::string(error.what()) + ". No more landmarks will be stored");
+        return give_up(*change, std::string(error.what()) + ". No more landmarks will be stored");
       } catch (const std::exception& error) {
-        return give_up(error.what() + std::string(": not stored"));
+        return give_up(*change, error.what() + std::string(": not stored"));
       }
     }
   }
@@ -114,7 +177,7 @@ class ServerWriter final : public StoreWriter {
                         : std::make_unique<LandmarkStore>(location_, LandmarkStore(location_, patience_).settings(),
                                                           patience_);
     }
-    apply(change, *store_, &ids_);
+    apply(change, *store_, ids_);
   }
 
   void ended_well() {
@@ -126,7 +189,8 @@ class ServerWriter final : public StoreWriter {
     problem_.clear();
   }
 
-  bool give_up(const std::string& why) {
+  bool give_up(const StoreChange& change, const std::string& why) {
+    if (const auto* lost = std::get_if<NewLandmark>(&change)) ids_.forget(lost->landmark.id);
     worker_->locked([&] {
       pending_.done();
       ++lost_;
@@ -149,7 +213,7 @@ class ServerWriter final : public StoreWriter {
   std::optional<DescriptionSettings> settings_;
   StorePatience patience_;
   std::unique_ptr<LandmarkStore> store_;  // used by the worker only, like the ids
-  StoredIds ids_;
+  StoredIds ids_{kMaxLandmarkId, {}};     // others give ids, too
   PendingChanges pending_;
   std::vector<StoreNotice> notices_;
   std::string problem_;  // of the last attempt; empty: none
@@ -161,8 +225,9 @@ class ServerWriter final : public StoreWriter {
 
 }  // namespace
 
-std::unique_ptr<StoreWriter> write_to_file(const StoreLocation& location, std::unique_ptr<LandmarkStore> store) {
-  return std::make_unique<FileWriter>(location, std::move(store));
+std::unique_ptr<StoreWriter> write_to_file(const StoreLocation& location, std::unique_ptr<LandmarkStore> store,
+                                           std::size_t most_waiting, int lock_ms) {
+  return std::make_unique<FileWriter>(location, std::move(store), most_waiting, lock_ms);
 }
 
 std::unique_ptr<StoreWriter> write_to_server(const StoreLocation& location,

@@ -28,23 +28,26 @@ class StoreWriter {
 
   /// Throws StoreError if the store has other settings. Creates the store if there is none.
   virtual void require(const DescriptionSettings& settings) = 0;
-  /// To a file: at once; throws StoreError, or std::invalid_argument for a landmark that breaks the rules. To a server:
-  /// later, and never waits.
-  virtual void write(StoreChange change) = 0;
+  /// To a file: at once, or with a later change if another process holds its lock; throws StoreError, or
+  /// std::invalid_argument for a landmark that breaks the rules. To a server: later, and never waits. Returns false if
+  /// there is no room for a change that has to wait: it is lost.
+  virtual bool write(StoreChange change) = 0;
   /// What there was to tell since the last call.
   virtual std::vector<StoreNotice> notices() { return {}; }
   /// State, for diagnostics; may be called on another thread.
   virtual std::vector<std::pair<std::string, std::string>> diagnostics() const { return {}; }
-  /// Ends writing: what a server does not take in time is lost, which a notice tells.
+  /// Ends writing: what cannot be stored in time is lost, which a notice tells.
   virtual void finish() {}
 };
 
 /// Longest wait of finish() for a server, in addition to that for the answer that is due.
 inline constexpr int kFinish_ms = 5000;
 
-/// `store`: opened to write, if it exists.
-std::unique_ptr<StoreWriter> write_to_file(const StoreLocation& location, std::unique_ptr<LandmarkStore> store);
-/// `settings`: of the store, if it exists. `most_waiting`: see PendingChanges.
+/// `store`: opened to write, if it exists. `most_waiting`: see PendingChanges. `lock_ms`: longest wait for the lock of
+/// another process; while changes wait, later ones do not wait for it.
+std::unique_ptr<StoreWriter> write_to_file(const StoreLocation& location, std::unique_ptr<LandmarkStore> store,
+                                           std::size_t most_waiting, int lock_ms = LandmarkStore::kBusy_ms);
+/// `settings`: of the store, if it exists.
 std::unique_ptr<StoreWriter> write_to_server(const StoreLocation& location,
                                              const std::optional<DescriptionSettings>& settings,
                                              const StorePatience& patience, std::size_t most_waiting);

@@ -2,7 +2,6 @@
 #include "stored_landmark.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 namespace panvo::landmarks {
@@ -56,8 +55,8 @@ StoredLandmark to_stored(const PanoramicLandmark& landmark) {
 
 PanoramicLandmark from_stored(const StoredLandmark& stored) {
   PanoramicLandmark landmark;
-  if (stored.id < 1 || stored.id > std::numeric_limits<std::uint32_t>::max()) {
-    throw std::range_error("its id is not in 1 to 4294967295");
+  if (stored.id < 1 || stored.id > kMaxLandmarkId) {
+    throw std::range_error("its id is not in 1 to 4000000000");
   }
   landmark.id = static_cast<std::uint32_t>(stored.id);
   landmark.stamp_ns = stored.stamp_ns;

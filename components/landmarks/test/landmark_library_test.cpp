@@ -57,6 +57,14 @@ TEST(LandmarkLibrary, NumbersLandmarksFromOneOn) {
   EXPECT_EQ(library.size(), 4u);
 }
 
+TEST(LandmarkLibrary, EndsAtTheHighestId) {
+  LandmarkLibrary library;
+  EXPECT_THROW(library.add(at(0, 0, kMaxLandmarkId + 1)), std::invalid_argument);
+  library.add(at(0, 0, kMaxLandmarkId));
+  EXPECT_NE(library.next_id(), 0u);
+  EXPECT_THROW(library.add(at(0, 0)), std::invalid_argument);
+}
+
 TEST(LandmarkLibrary, ListsByIdWhateverTheOrderOfArrival) {
   LandmarkLibrary library;
   for (const std::uint32_t id : {5u, 2u, 9u, 1u}) library.add(at(id, 0, id));

@@ -10,6 +10,7 @@
 #include "made_up_landmark.hpp"
 #include "panvo/interfaces/message_type.hpp"
 #include "panvo/interfaces/topics.hpp"
+#include "panvo/landmarks/map_replica.hpp"
 
 namespace panvo::landmarks {
 namespace {
@@ -99,6 +100,26 @@ TEST(LandmarkMessages, ThatAreMalformedAreRefusedWithAReason) {
     EXPECT_FALSE(result) << fault.reason;
     EXPECT_THAT(result.reason(), HasSubstr(fault.reason));
   }
+}
+
+TEST(LandmarkMessages, HaveNoIdThatTheNextCouldNotBeCountedFrom) {
+  auto message = message_of(1);
+  message.id(kMaxLandmarkId);
+  auto highest = to_landmark(message, made_up_settings());
+  ASSERT_TRUE(highest) << highest.reason();
+  MapReplica map;
+  auto landmark = *highest;
+  map.add(landmark);
+  EXPECT_EQ(map.next_id(), kMaxLandmarkId + 1);
+
+  message.id(kMaxLandmarkId + 1);
+  EXPECT_THAT(to_landmark(message, made_up_settings()).reason(), HasSubstr("id is above 4000000000"));
+  panvo_msgs::msg::LandmarkPoses poses;
+  poses.ids({1, kMaxLandmarkId + 1});
+  poses.poses().resize(2);
+  EXPECT_THAT(to_landmark_poses(poses).reason(), HasSubstr("ids contain one above 4000000000"));
+  poses.ids({1, kMaxLandmarkId});
+  EXPECT_TRUE(to_landmark_poses(poses));
 }
 
 TEST(LandmarkTopics, ReachThoseWhoComeLate) {

@@ -341,6 +341,35 @@ TEST_F(LandmarkStoreComponent, BeginsWithTheOtherLandmarksWhereOneIsNone) {
   EXPECT_TRUE(session.harness.log_contains("landmark 2: keypoints are truncated"));
 }
 
+TEST_F(LandmarkStoreComponent, KeepsNewLandmarksThatHaveTheIdsOfOneThatIsNone) {
+  {
+    LandmarkStore store(file_, made_up_settings());
+    for (const std::uint32_t id : {1U, 2U, 3U}) store.add(made_up_landmark(id));
+  }
+  sqlite::Database(file_, sqlite::Database::Mode::kReadWrite)
+      .execute("UPDATE keypoints SET data = x'00' WHERE landmark_id = 3");
+  auto third = made_up_landmark(30), fourth = made_up_landmark(40);
+  third.id = 3;  // those who number landmarks have not heard of the damaged one
+  fourth.id = 4;
+  {
+    Session session(file_);
+    ASSERT_EQ(session.published.size(), 2U);
+    session.publish(third);
+    session.publish(fourth);
+    session.publish_poses({moved(third, 2.0)});
+    EXPECT_FALSE(session.harness.log_contains("No more landmarks will be stored"));
+  }
+  const LandmarkStore store(file_);
+  const auto stored = store.landmarks();
+  ASSERT_EQ(stored.size(), 5U);
+  third.id = 4;
+  fourth.id = 5;
+  EXPECT_EQ(difference(stored[2], made_up_landmark(3), false), "") << "to be restored";
+  EXPECT_EQ(difference(stored[3], moved(third, 2.0), false), "");
+  EXPECT_EQ(difference(stored[4], fourth, false), "");
+  EXPECT_EQ(store.keypoints(5), fourth.keypoints);
+}
+
 TEST_F(LandmarkStoreComponent, IsRefusedWithAFileThatIsNone) {
   folder_.write(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
   EXPECT_THAT(error_of<std::runtime_error>([&] { const Session session(file_); }),

@@ -115,6 +115,9 @@ TEST_F(Store, RefusesATakenIdAndValuesThatAreNone) {
   broken = made_up_landmark(2);
   broken.covariance(3, 3) = std::numeric_limits<double>::infinity();
   EXPECT_THROW(store.add(broken), std::invalid_argument);
+  broken = made_up_landmark(2);
+  broken.id = kMaxLandmarkId + 1;
+  EXPECT_THROW(store.add(broken), std::invalid_argument);
   EXPECT_EQ(store.size(), 1u);
 }
 
@@ -222,8 +225,8 @@ TEST_F(Store, LeavesOutALandmarkWhoseIdIsTooLarge) {
   const LandmarkStore store(file_);
   std::vector<std::string> problems;
   EXPECT_EQ(store.landmarks([&](const std::string& problem) { problems.push_back(problem); }).size(), 1u);
-  EXPECT_THAT(problems, testing::UnorderedElementsAre("landmark 4294967298: its id is not in 1 to 4294967295",
-                                                      "landmark 0: its id is not in 1 to 4294967295"));
+  EXPECT_THAT(problems, testing::UnorderedElementsAre("landmark 4294967298: its id is not in 1 to 4000000000",
+                                                      "landmark 0: its id is not in 1 to 4000000000"));
 }
 
 TEST_F(Store, LeavesOutALandmarkWithARowThatItsMatrixDoesNotHave) {

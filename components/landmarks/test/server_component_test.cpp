@@ -31,6 +31,14 @@ class ServerStoreComponent : public ServerTest {
     void publish(const PanoramicLandmark& landmark, const DescriptionSettings& settings = made_up_settings()) {
       harness.publish(topics::kLandmarks, to_message(landmark, settings, "map"));
     }
+    void publish_poses(const std::vector<PanoramicLandmark>& landmarks) {
+      panvo_msgs::msg::LandmarkPoses message;
+      for (const auto& landmark : landmarks) {
+        message.ids().push_back(landmark.id);
+        message.poses().push_back(to_message(landmark, made_up_settings(), "map").pose());
+      }
+      harness.publish(topics::kLandmarkPoses, message);
+    }
     /// Position only: makes the component tell its notices.
     void drive_to(double x) {
       nav_msgs::msg::Odometry odometry;
@@ -48,6 +56,9 @@ class ServerStoreComponent : public ServerTest {
     }
   };
 
+  std::string x_of(std::uint32_t id) const {
+    return sql("SELECT x FROM panvo.landmark WHERE id = " + std::to_string(id));
+  }
   std::string stored() const { return sql("SELECT count(*) FROM panvo.landmark"); }
   bool becomes_stored(const std::string& count) const {
     return becomes_true([&] {
@@ -63,6 +74,13 @@ class ServerStoreComponent : public ServerTest {
 PanoramicLandmark moved(PanoramicLandmark landmark, double by_m) {
   landmark.map_from_base.translation().x() += by_m;
   return landmark;
+}
+
+std::string diagnostic(const StoreWriter& writer, const std::string& name) {
+  for (const auto& [key, text] : writer.diagnostics()) {
+    if (key == name) return text;
+  }
+  return "";
 }
 
 TEST_F(ServerStoreComponent, KeepsWhatIsPublishedAndBeginsWithItTheNextTime) {
@@ -156,6 +174,66 @@ TEST_F(ServerStoreComponent, TellsWhatItHasNoRoomFor) {
   EXPECT_TRUE(becomes_stored("13"));
 }
 
+TEST_F(ServerStoreComponent, MovesNoLandmarkOfAnotherRobotForOneThatItHadNoRoomFor) {
+  Robot first(location(), {{"waiting", "10"}});
+  first.publish(made_up_landmark(1));
+  ASSERT_TRUE(becomes_stored("1"));
+  server_->stop();
+  first.publish(made_up_landmark(2));
+  EXPECT_TRUE(first.tells("cannot be reached"));
+  for (std::uint32_t id = 3; id <= 20; ++id) first.publish(made_up_landmark(id));
+  server_->start();
+  ASSERT_TRUE(becomes_stored("12"));
+
+  Robot second(location());
+  for (std::uint32_t id = 13; id <= 20; ++id) {
+    auto other = made_up_landmark(100 + id);
+    other.id = id;
+    second.publish(other);
+  }
+  ASSERT_TRUE(becomes_stored("20"));
+  const std::string others = "SELECT * FROM panvo.landmark WHERE id > 12 ORDER BY id";
+  const auto before = sql(others), x_before = x_of(12);
+  std::vector<PanoramicLandmark> map;
+  for (std::uint32_t id = 1; id <= 20; ++id) map.push_back(moved(made_up_landmark(id), 5.0));
+  first.publish_poses(map);
+  EXPECT_TRUE(becomes_true([&] { return x_of(12) != x_before; }));
+  EXPECT_EQ(sql(others), before);
+}
+
+TEST_F(ServerStoreComponent, MovesNoLandmarkOfAnotherRobotForOneThatWasRefused) {
+  LandmarkStore store(location(), made_up_settings());
+  store.add(made_up_landmark(1));
+  const auto writer = write_to_server(location(), made_up_settings(), little_patience(), 10);
+  auto broken = made_up_landmark(2);
+  broken.covariance(0, 0) = -1.0;
+  writer->write(NewLandmark{broken, made_up_settings(), std::nullopt});
+  ASSERT_TRUE(becomes_true([&] { return diagnostic(*writer, "changes lost") == "1"; }));
+  ASSERT_EQ(store.add(made_up_landmark(2), IfTaken::kNextId), 2U);
+  const auto x_before = x_of(1);
+  MovedLandmarks change;
+  for (const std::uint32_t id : {1U, 2U}) {
+    const auto to = moved(made_up_landmark(id), 5.0);
+    change.poses.push_back({id, to.map_from_base, to.covariance});
+  }
+  writer->write(change);
+  EXPECT_TRUE(becomes_true([&] { return x_of(1) != x_before; }));
+  EXPECT_EQ(difference(whole(store, 2), made_up_landmark(2)), "");
+}
+
+TEST_F(ServerStoreComponent, MovesNoLandmarkThatWasAddedSinceItsOwnWasRemoved) {
+  LandmarkStore store(location(), made_up_settings());
+  for (std::uint32_t id = 1; id <= 3; ++id) store.add(made_up_landmark(id));
+  Robot robot(location());
+  const std::uint32_t last = 3;
+  store.remove(std::span(&last, 1));
+  EXPECT_EQ(store.add(made_up_landmark(3), IfTaken::kNextId), 4U) << "3 is free, but the robot knows it";
+  const auto before = x_of(4), x_before = x_of(1);
+  robot.publish_poses({moved(made_up_landmark(1), 5.0), moved(made_up_landmark(3), 5.0)});
+  EXPECT_TRUE(becomes_true([&] { return x_of(1) != x_before; }));
+  EXPECT_EQ(x_of(4), before);
+}
+
 TEST_F(ServerStoreComponent, IsRefusedAtStartIfTheServerIsAway) {
   server_->stop();
   EXPECT_THAT(error_of<std::runtime_error>([&] { const Robot robot(location()); }),
@@ -194,12 +272,7 @@ TEST_F(ServerStoreComponent, CountsWhatIsLostInItsDiagnostics) {
   for (std::uint32_t id = 1; id <= 6; ++id) {
     writer->write(NewLandmark{made_up_landmark(id), made_up_settings(), std::nullopt});
   }
-  const auto value = [&](const std::string& name) {
-    for (const auto& [key, text] : writer->diagnostics()) {
-      if (key == name) return text;
-    }
-    return std::string();
-  };
+  const auto value = [&](const std::string& name) { return diagnostic(*writer, name); };
   EXPECT_TRUE(becomes_true([&] { return value("store problem").find("cannot be reached") != std::string::npos; }));
   const auto waiting = std::stoi(value("changes waiting"));
   EXPECT_EQ(waiting + std::stoi(value("changes lost")), 6);

@@ -75,7 +75,7 @@ TEST_P(StoreOfEachKind, GivesEachLandmarkItsNumbers) {
   EXPECT_EQ(store.add(next), 4U);
   EXPECT_THAT(error_of<StoreError>([&] { store.add(made_up_landmark(1)); }), HasSubstr("already contains landmark 1"));
   EXPECT_EQ(store.add(made_up_landmark(1), IfTaken::kNextId), 5U);
-  EXPECT_EQ(store.add(made_up_landmark(9), IfTaken::kNextId), 9U);
+  EXPECT_EQ(store.add(made_up_landmark(9), IfTaken::kNextId), is_server() ? 6U : 9U);
   EXPECT_EQ(store.size(), 6U);
 }
 
@@ -180,7 +180,8 @@ TEST_P(StoreOfEachKind, LeavesOutDamagedLandmarksAndSaysWhich) {
   tamper(
       "UPDATE landmark SET covariance = x'00' WHERE id = 2; UPDATE landmark SET x = 1e200 WHERE id = 3;"
       "UPDATE landmark SET small_features = x'ffff0000000000003f000000003f' WHERE id = 4;"
-      "DELETE FROM keypoints WHERE landmark_id = 5; UPDATE landmark SET id = 4294967298 WHERE id = 5;",
+      "DELETE FROM keypoints WHERE landmark_id = 5; DELETE FROM thumbnail WHERE landmark_id = 5;"
+      "UPDATE landmark SET id = 4294967298 WHERE id = 5;",
       "UPDATE landmark SET covariance = '\\x00' WHERE id = 2; UPDATE landmark SET x = 1e200 WHERE id = 3;"
       "UPDATE landmark SET small_features = '\\xffff0000000000003f000000003f' WHERE id = 4;"
       "DELETE FROM keypoints WHERE landmark_id = 5; DELETE FROM thumbnail WHERE landmark_id = 5;"
@@ -193,8 +194,12 @@ TEST_P(StoreOfEachKind, LeavesOutDamagedLandmarksAndSaysWhich) {
   EXPECT_THAT(
       told,
       ElementsAre("landmark 2: contains invalid values", "landmark 3: pose.pose.position is beyond +-1e+08",
-                  HasSubstr("landmark 4: small_features"), "landmark 4294967298: its id is not in 1 to 4294967295"));
+                  HasSubstr("landmark 4: small_features"), "landmark 4294967298: its id is not in 1 to 4000000000"));
   EXPECT_THAT(store.find_damage().value_or(""), HasSubstr("landmark 2: contains invalid values; landmark 3"));
+  EXPECT_EQ(store.last_id(), 4U) << "beyond is none, but invalid records have theirs";
+  auto next = made_up_landmark(9);
+  next.id = 0;
+  EXPECT_EQ(LandmarkStore(where(), made_up_settings()).add(next), 5U);
 }
 
 TEST_P(StoreOfEachKind, RefusesDamagedKeypoints) {
@@ -236,7 +241,7 @@ TEST_P(StoreOfEachKind, TakesAnotherStoresLandmarksWithNewIds) {
 
 /// A store with gaps in its ids, uses, and values that are hard to keep.
 void fill(LandmarkStore& store) {
-  for (const std::uint32_t id : {2U, 3U, 90U, 4294967295U}) {
+  for (const std::uint32_t id : {2U, 3U, 90U, kMaxLandmarkId}) {
     auto landmark = made_up_landmark(id, id == 3 ? 0 : 300);
     landmark.map_from_base.translation().y() = id == 2 ? 1e-300 : 0.1;
     landmark.stamp_ns = id == 2 ? std::numeric_limits<std::int64_t>::max() : 0;
@@ -263,7 +268,7 @@ TEST_P(StoreOfEachKind, IsCopiedExactlyToEachKindAndBack) {
     for (const auto* store : {&copy, &again}) {
       EXPECT_EQ(store->uses(), original.uses());
       EXPECT_EQ(store->size(), 4U);
-      for (const std::uint32_t id : {2U, 3U, 90U, 4294967295U}) {
+      for (const std::uint32_t id : {2U, 3U, 90U, kMaxLandmarkId}) {
         const auto expected = whole(original, id), found = whole(*store, id);
         EXPECT_EQ(difference(found, expected), "");
         EXPECT_EQ(found.map_from_base.matrix(), expected.map_from_base.matrix()) << "bit for bit";

@@ -26,10 +26,10 @@
 #include "panvo/localizer/soundness.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/vision/seconds.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 #include "path_record.hpp"
 #include "pose_publisher.hpp"
 #include "satellites.hpp"
-#include "set_back.hpp"
 
 namespace panvo::localizer {
 
@@ -91,13 +91,12 @@ class LocalizerComponent final : public runtime::Component {
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return refuse(context_.resolved_name(topics::kOdometryBinocular), pose.reason());
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
-    if (begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns) {
-      const std::int64_t back_ns = localizer_.latest().stamp_ns - stamp_ns;
-      if (!set_back_.add(stamp_ns, back_ns)) {
-        return refuse(context_.resolved_name(topics::kOdometryBinocular),
-                      "has a stamp not later than the previous one");
-      }
-      set_clock_back(back_ns);
+    const auto order = stamps_.add(stamp_ns);
+    if (order == vision::StampOrder::kNotLater) {
+      return refuse(context_.resolved_name(topics::kOdometryBinocular), "has a stamp not later than the previous one");
+    }
+    if (order == vision::StampOrder::kSetBack && begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns) {
+      set_clock_back(localizer_.latest().stamp_ns - stamp_ns);
     }
     const OdometryPose received{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()),
                                 joined.quality.is_reliable, joined.quality.lean_sigma_rad_per_m};
@@ -315,7 +314,7 @@ class LocalizerComponent final : public runtime::Component {
   LastPoseKeeper last_pose_;
   AlignmentNotices notices_;
   std::optional<conversions::OdometryListener> odometry_input_;
-  SetBack set_back_;
+  vision::StampSequence stamps_;  // of the odometry
   PathRecord path_binocular_, path_enhanced_;
   PosePublisher publisher_;
   Satellites satellites_;

@@ -73,6 +73,59 @@ TEST(HeadSets, HoldsNoMoreThanItsDepth) {
   EXPECT_EQ(sets.unpaired(0), 97u);
 }
 
+/// Two heads with ten images per second.
+class HeadSetsWhoseClockIsSetBack : public testing::Test {
+ protected:
+  static constexpr std::int64_t kInterval_ns = 100'000'000;
+  static constexpr int kBack = 6000;  // intervals
+
+  void take(int first, int end) {
+    for (int i = first; i < end; ++i) {
+      for (const std::size_t head : {0U, 1U}) push(head, i);
+    }
+  }
+  void push(std::size_t head, int i) {
+    for (const auto& set : sets.push(head, i * kInterval_ns, i)) {
+      if (set.items[0] == set.items[1]) complete.push_back(*set.items[0]);
+    }
+  }
+
+  Sets sets{2, {}};
+  std::vector<int> complete;  // with both heads
+};
+
+TEST_F(HeadSetsWhoseClockIsSetBack, GoOnWithTheNewTime) {
+  take(10'000, 10'020);
+  sets.push(0, 10'020 * kInterval_ns, 10'020);  // waits for the other head
+  complete.clear();
+  take(10'020 - kBack, 10'030 - kBack);
+  EXPECT_THAT(complete, ElementsAre(4024, 4025, 4026, 4027, 4028, 4029)) << "from the fifth on";
+  EXPECT_EQ(sets.unpaired(0), 5u);
+  EXPECT_EQ(sets.unpaired(1), 4u);
+}
+
+TEST_F(HeadSetsWhoseClockIsSetBack, GoOnIfTheOtherHeadsClockFollowsLater) {
+  take(10'000, 10'020);
+  complete.clear();
+  for (int i = 0; i < 30; ++i) {
+    push(0, 10'020 - kBack + i);
+    push(1, 10'020 - (i < 20 ? 0 : kBack) + i);
+  }
+  EXPECT_THAT(complete, ElementsAre(4045, 4046, 4047, 4048, 4049)) << "when that is certain";
+  EXPECT_FALSE(sets.is_missing(0));
+  EXPECT_FALSE(sets.is_missing(1));
+}
+
+TEST_F(HeadSetsWhoseClockIsSetBack, DropSingleLateImages) {
+  for (int i = 0; i < 20; ++i) {
+    take(10'000 + i, 10'001 + i);
+    take(10'000 - kBack + i, 10'001 - kBack + i);
+  }
+  EXPECT_THAT(complete, SizeIs(20));
+  EXPECT_THAT(complete, testing::Each(testing::Ge(10'000)));
+  EXPECT_EQ(sets.unpaired(0), 20u);
+}
+
 TEST(HeadSets, RefusesSettingsThatMakeNoSense) {
   EXPECT_THROW(Sets(0, kSettings), std::invalid_argument);
   EXPECT_THROW(Sets(2, {.tolerance_ns = -1}), std::invalid_argument);

@@ -18,6 +18,7 @@
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/vision/panorama_watch.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 #include "panvo/vision/vehicle_mask.hpp"
 #include "point_messages.hpp"
 
@@ -54,8 +55,9 @@ struct ComponentParameters : CompassParameters {
   }
 };
 
-/// panorama/image, /tf_static, odometry/binocular -> compass/azimuth_change, one message per panorama except the first;
-/// invalid ones state the reason; compass/points, if read; panorama/vehicle_mask. Odometry is used to learn the mask only.
+/// panorama/image, /tf_static, odometry/binocular -> compass/azimuth_change, one message per panorama except the first,
+/// also after the clock was set back; invalid ones state the reason; compass/points, if read; panorama/vehicle_mask.
+/// Odometry is used to learn the mask only.
 class PanoramicCompassComponent final : public runtime::Component {
  public:
   explicit PanoramicCompassComponent(runtime::Context& context)
@@ -134,10 +136,12 @@ class PanoramicCompassComponent final : public runtime::Component {
   void on_panorama(const std::shared_ptr<const sensor_msgs::msg::Image>& shared) {
     const sensor_msgs::msg::Image& message = *shared;
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
-    if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
+    const auto order = stamps_.add(stamp_ns);
+    if (order == vision::StampOrder::kNotLater) {
       return context_.log().warn_throttled("stamp", "{}: stamp not later than the previous one; panorama skipped",
                                            context_.resolved_name(topics::kPanorama));
     }
+    if (order == vision::StampOrder::kSetBack) begin_anew();
     const auto panorama = conversions::grey_or_bgr(message);
     if (!panorama) {
       return context_.log().warn_throttled("unusable", "{} {}; panorama skipped",
@@ -158,6 +162,13 @@ class PanoramicCompassComponent final : public runtime::Component {
     if (const auto fault = find_fault(*panorama)) {
       context_.log().warn_throttled(*fault, "{} {}", context_.resolved_name(topics::kPanorama), *fault);
     }
+  }
+
+  /// The clock was set back: no turn since a panorama of the time before has a meaning.
+  void begin_anew() {
+    last_stamp_ns_.reset();
+    to_learn_ = nullptr;
+    make_compass(base_from_panorama_);
   }
 
   /// Recreates the compass if the camera mounting in /tf_static differs from the current one.
@@ -199,7 +210,8 @@ class PanoramicCompassComponent final : public runtime::Component {
   std::optional<PanoramicCompass> compass_;
   std::shared_ptr<const sensor_msgs::msg::Image> to_learn_;  // until its heading is known
   vision::VehicleMask mask_;
-  cv::Mat seen_;  // empty: nothing is known of the vehicle
+  cv::Mat seen_;                  // empty: nothing is known of the vehicle
+  vision::StampSequence stamps_;  // of the panoramas
   std::optional<std::int64_t> last_stamp_ns_;
   bool is_valid_ = true;
 };

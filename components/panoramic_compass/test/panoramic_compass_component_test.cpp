@@ -199,6 +199,50 @@ TEST_F(PanoramicCompassComponent, LeavesOutWhatComesOutOfOrder) {
   EXPECT_TRUE(harness.log_contains("not later than the previous one"));
 }
 
+TEST_F(PanoramicCompassComponent, TakesANewReferenceIfTheClockIsSetBack) {
+  load();
+  frames = 5000;
+  publish(street);
+  publish(turned_left(street, 5.0));
+  ASSERT_EQ(changes.size(), 1U);
+  frames -= 3000;  // ten minutes
+  for (int i = 0; i < 5; ++i) publish(turned_left(street, 6.0 + i));
+  EXPECT_EQ(changes.size(), 1U) << "the fifth is the new reference";
+  const std::int64_t reference_ns = frames * kPeriod_ns;
+  publish(turned_left(street, 20.0));
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_TRUE(changes[1]->valid()) << changes[1]->reason();
+  EXPECT_EQ(conversions::to_ns(changes[1]->from_stamp()), reference_ns);
+  EXPECT_NEAR(changes[1]->azimuth_change_rad(), 10.0 * kColumn_rad, 0.1 * kColumn_rad);
+}
+
+TEST_F(PanoramicCompassComponent, GoesOnIfSinglePanoramasAreLate) {
+  load();
+  frames = 5000;
+  publish(street);
+  for (int i = 1; i < 10; ++i) {
+    frames -= 3000;
+    publish(turned_left(street, -50.0 + i));
+    frames += 3000 - 1;
+    publish(turned_left(street, 2.0 * i));
+    ASSERT_EQ(changes.size(), static_cast<std::size_t>(i));
+    EXPECT_TRUE(changes.back()->valid()) << changes.back()->reason();
+    EXPECT_GE(conversions::to_ns(changes.back()->from_stamp()), 5001 * kPeriod_ns);
+  }
+}
+
+TEST_F(PanoramicCompassComponent, LearnsTheVehicleAlsoAfterTheClockWasSetBack) {
+  const auto& masks = harness.collect(topics::kVehicleMask);
+  load();
+  frames = 5000;
+  publish(street);  // waits for its heading
+  frames -= 3000;
+  for (int i = 0; i < 5; ++i) publish(turned_left(street, 1.0 + i));
+  publish_heading(0.0);
+  turn_with_mast();
+  EXPECT_FALSE(masks.empty());
+}
+
 TEST_F(PanoramicCompassComponent, LearnsTheVehicleAndTellsOthers) {
   const auto& masks = harness.collect(topics::kVehicleMask);
   load();

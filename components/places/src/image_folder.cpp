@@ -19,15 +19,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kBlank = " \t\r";
+constexpr const char* kExpected = "poses are lines image,x_m,y_m,heading_deg, or TUM or KITTI with one line per image";
+
 struct Line {
   std::size_t number = 0;
   std::vector<std::string> words;
 };
 
 [[noreturn]] void fail(const fs::path& file, std::size_t line, const std::string& problem) {
-  throw FolderError(
-      fmt::format("{}:{}: {}; poses are lines image,x_m,y_m,heading_deg, or TUM or KITTI with one line per image",
-                  file.string(), line, problem));
+  throw FolderError(fmt::format("{}:{}: {}; {}", file.string(), line, problem, kExpected));
+}
+
+/// At commas, if there are any: then words, such as the names of images, may have spaces.
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  std::string word;
+  if (text.find(',') == std::string::npos) {
+    while (stream >> word) words.push_back(word);
+    return words;
+  }
+  while (std::getline(stream, word, ',')) {
+    const auto begin = std::min(word.find_first_not_of(kBlank), word.size());
+    words.push_back(word.substr(begin, word.find_last_not_of(kBlank) + 1 - begin));
+  }
+  return words;
 }
 
 std::vector<Line> read_lines(const fs::path& file) {
@@ -36,12 +53,11 @@ std::vector<Line> read_lines(const fs::path& file) {
   std::vector<Line> lines;
   std::string text;
   for (std::size_t number = 1; std::getline(stream, text); ++number) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == ',' || c == '\t' || c == '\r'; }, ' ');
-    std::istringstream words(text);
-    Line line{number, {}};
-    for (std::string word; words >> word;) line.words.push_back(word);
-    if (!line.words.empty() && line.words[0][0] != '#') lines.push_back(std::move(line));
+    if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // the mark of UTF-8
+    Line line{number, split(text)};
+    const auto is_empty = [](const std::string& word) { return word.empty(); };
+    if (std::all_of(line.words.begin(), line.words.end(), is_empty) || line.words[0].starts_with('#')) continue;
+    lines.push_back(std::move(line));
   }
   return lines;
 }
@@ -99,16 +115,16 @@ Eigen::Isometry3d kitti_pose(const std::vector<double>& values) {
 void set_named_poses(const fs::path& file, const std::vector<Line>& lines, std::vector<FolderImage>& images) {
   std::map<std::string, FolderImage*> by_name;
   for (auto& image : images) by_name[image.file.filename().string()] = &image;
+  bool is_any_named = false;
   for (const auto& line : lines) {
     const auto found = by_name.find(line.words[0]);
-    if (found == by_name.end()) {
-      if (&line == &lines.front()) continue;  // names of columns
-      continue;                               // an image that is not there any more
-    }
+    if (found == by_name.end()) continue;  // names of columns, or an image that is not there any more
+    is_any_named = true;
     if (line.words.size() < 4) fail(file, line.number, "a pose needs image, x, y and heading");
     const auto values = numbers(file, {line.number, {line.words.begin(), line.words.begin() + 4}}, 1);
     found->second->map_from_base = planar_pose(values[0], values[1], values[2]);
   }
+  if (!is_any_named) throw FolderError(fmt::format("{}: names none of the images; {}", file.string(), kExpected));
 }
 
 /// One line per image, in order.
@@ -143,10 +159,12 @@ std::vector<FolderImage> read_image_folder(const fs::path& folder, const fs::pat
     if (file.empty() && fs::exists(folder / name)) file = folder / name;
   }
   if (file.empty()) return images;
-  const auto lines = read_lines(file);
+  auto lines = read_lines(file);
   if (lines.empty()) throw FolderError(file.string() + ": holds no poses; write one line per image");
-  const bool is_listed =
-      std::all_of(lines.begin(), lines.end(), [](const Line& line) { return number_of(line.words[0]).has_value(); });
+  const auto begins_with_number = [](const Line& line) { return number_of(line.words[0]).has_value(); };
+  // The first line may hold names of columns: the others tell.
+  const bool is_listed = std::all_of(lines.begin() + (lines.size() > 1 ? 1 : 0), lines.end(), begins_with_number);
+  if (is_listed && !begins_with_number(lines.front())) lines.erase(lines.begin());
   is_listed ? set_listed_poses(file, lines, images) : set_named_poses(file, lines, images);
   return images;
 }

@@ -12,6 +12,7 @@
 
 #include "made_up_view.hpp"
 #include "painted_place.hpp"
+#include "panvo/places/image_folder.hpp"
 #include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::places {
@@ -123,6 +124,59 @@ TEST_F(PlacesCommand, RefusesWhatItCannotUse) {
   std::fclose(poses);
   EXPECT_THAT(build().output, HasSubstr("1 poses for 3 images"));
   EXPECT_EQ(run("--help").status, 0);
+}
+
+/// Two images of names with a space, and a file of poses.
+class PosesOfImages : public testing::Test {
+ protected:
+  static constexpr const char* kMark = "\xEF\xBB\xBF";
+
+  std::vector<FolderImage> read(const std::string& poses) {
+    for (const char* name : {"IMG 0001.jpg", "IMG 0002.jpg"}) folder_.write(name, "");
+    return read_image_folder(folder_.path(), folder_.write("poses", poses));
+  }
+  std::string error_of(const std::string& poses) {
+    try {
+      read(poses);
+    } catch (const FolderError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  panvo::test::TemporaryFolder folder_;
+};
+
+TEST_F(PosesOfImages, MayBeginWithTheMarkOfUtf8) {
+  const auto images = read(std::string(kMark) + "0.5 1 2 3 0 0 0 1\n1.5 4 5 6 0 0 0 1\n");
+  ASSERT_EQ(images.size(), 2U);
+  ASSERT_TRUE(images[0].map_from_base && images[1].map_from_base);
+  EXPECT_EQ(images[0].time_s, 0.5);
+  EXPECT_EQ(images[0].map_from_base->translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_TRUE(read(std::string(kMark) + "IMG 0001.jpg,1,2,90\n").at(0).map_from_base);
+}
+
+TEST_F(PosesOfImages, MayBeginWithNamesOfColumns) {
+  for (const char* header : {"timestamp tx ty tz qx qy qz qw\n", "timestamp,tx,ty,tz,qx,qy,qz,qw\r\n"}) {
+    const auto images = read(std::string(header) + "0.5 1 2 3 0 0 0 1\n1.5 4 5 6 0 0 0 1\n");
+    ASSERT_TRUE(images[0].map_from_base && images[1].map_from_base);
+    EXPECT_EQ(images[1].map_from_base->translation(), Eigen::Vector3d(4, 5, 6));
+  }
+  EXPECT_THAT(error_of("timestamp tx ty tz qx qy qz qw\n0.5 1 2 3 0 0 0 1\n"), HasSubstr("1 poses for 2 images"));
+}
+
+TEST_F(PosesOfImages, MayBeOfNamesWithSpaces) {
+  const auto images = read("image, x, y, heading\r\n IMG 0002.jpg , 1, 2, 90\r\n,,,\r\nIMG 0003.jpg,5,5,0\r\n");
+  ASSERT_TRUE(images[1].map_from_base);
+  EXPECT_FALSE(images[0].map_from_base);
+  EXPECT_EQ(images[1].map_from_base->translation(), Eigen::Vector3d(1, 2, 0));
+}
+
+TEST_F(PosesOfImages, AreRefusedIfTheyNameNoneOfThem) {
+  const std::string expected = (folder_ / "poses").string() + ": names none of the images; poses are lines image,x_m";
+  EXPECT_THAT(error_of("image,x_m,y_m,heading_deg\nDSC1.jpg,1,2,90\nDSC2.jpg,1,2,90\n"), HasSubstr(expected));
+  EXPECT_THAT(error_of("image,x_m,y_m,heading_deg\n"), HasSubstr(expected));
+  EXPECT_THAT(error_of("IMG 0001.jpg 1 2 90\nIMG 0002.jpg 1 2 90\n"), HasSubstr(expected)) << "without commas";
 }
 
 }  // namespace

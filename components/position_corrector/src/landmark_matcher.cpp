@@ -33,6 +33,8 @@ void LandmarkMatcher::added(std::uint32_t id) {
 LandmarkMatch LandmarkMatcher::match(const PanoramaFrame& frame, const landmarks::LandmarkLibrary& library) {
   has_started_ = true;
   travelled_m_ = frame.travelled_m;
+  // The stamps of a pass are of the time before; a landmark that is still here is found again.
+  if (stamps_.add(frame.stamp_ns) == vision::StampOrder::kSetBack) lock_.reset();
   LandmarkMatch match;
   match.stamp_ns = frame.stamp_ns;
   if (const auto fault = landmarks::find_fault(frame.panorama)) {

@@ -7,13 +7,16 @@
 namespace panvo::position_corrector {
 
 void OdometryTrail::add(const OdometrySample& sample) {
+  const auto order = stamps_.add(sample.stamp_ns);
+  if (order == vision::StampOrder::kNotLater) return;
   double travelled_m = 0.0;
   if (!entries_.empty()) {
     const auto& last = entries_.back();
-    if (sample.stamp_ns <= last.stamp_ns) return;
-    const double seconds = 1e-9 * static_cast<double>(sample.stamp_ns - last.stamp_ns);
+    // Negative if the clock was set back: the path of the few messages until that is certain is unknown.
+    const double seconds = std::max(1e-9 * static_cast<double>(sample.stamp_ns - last.stamp_ns), 0.0);
     travelled_m = last.point.travelled_m + sample.twist.head<3>().norm() * seconds;
   }
+  if (order == vision::StampOrder::kSetBack) entries_.clear();
   entries_.push_back({sample.stamp_ns, {sample.prior, sample.twist, travelled_m}});
   if (entries_.size() > kMaxSamples) entries_.pop_front();
 }

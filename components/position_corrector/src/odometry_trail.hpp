@@ -7,6 +7,7 @@
 
 #include "panvo/position_corrector/landmark_matcher.hpp"
 #include "panvo/vision/pose.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 
 namespace panvo::position_corrector {
 
@@ -29,7 +30,7 @@ struct TrailPoint {
 /// jump.
 class OdometryTrail {
  public:
-  /// Ignores messages whose stamp is not later than the last.
+  /// Ignores messages whose stamp is not later than the last. If the clock was set back, only the path length goes on.
   void add(const OdometrySample& sample);
 
   /// Interpolated between the two messages around a stamp; clamped to the first and last message. nullopt before the
@@ -43,6 +44,7 @@ class OdometryTrail {
     std::int64_t stamp_ns;
     TrailPoint point;
   };
+  vision::StampSequence stamps_;
   std::deque<Entry> entries_;
 };
 

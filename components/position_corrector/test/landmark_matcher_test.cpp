@@ -107,6 +107,46 @@ TEST_F(LandmarkMatching, TellsThePlaceOnceItIsPastAndNamesTheMostSimilarPanorama
   EXPECT_EQ(match.pass->keypoints, detect_keypoints(place(2), keypoints));
 }
 
+/// Standing still, as the time then ends a pass.
+class ALockWhileTheClockIsSetBack : public LandmarkMatching {
+ protected:
+  ALockWhileTheClockIsSetBack() {
+    frames = 3000;
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(stand().state, MatchState::kLocked);
+  }
+
+  LandmarkMatch stand() {
+    ++frames;
+    return matcher.match({frames * kPeriod_ns, place(2), 10.0, std::nullopt}, library);
+  }
+};
+
+TEST_F(ALockWhileTheClockIsSetBack, IsReplacedByOneWithTheNewTime) {
+  const int before = frames;
+  frames -= 2000;
+  const int first = frames + 5;  // by then it is certain
+  LandmarkMatch match;
+  for (int i = 0; i < 40 && match.state != MatchState::kMatched; ++i) match = stand();
+  ASSERT_EQ(match.state, MatchState::kMatched) << "it would take all of these minutes";
+  EXPECT_EQ(match.landmark_id, 2U);
+  EXPECT_GE(match.stamp_ns, first * kPeriod_ns);
+  EXPECT_LT(match.stamp_ns, before * kPeriod_ns);
+  ASSERT_TRUE(match.pass);
+  EXPECT_EQ(match.pass->curve.size(), static_cast<std::size_t>(frames - first + 1));
+}
+
+TEST_F(ALockWhileTheClockIsSetBack, SurvivesASingleLatePanorama) {
+  const int before = frames;
+  frames -= 2000;
+  EXPECT_EQ(stand().state, MatchState::kLocked);
+  frames = before;
+  LandmarkMatch match;
+  for (int i = 0; i < 40 && match.state != MatchState::kMatched; ++i) match = stand();
+  ASSERT_EQ(match.state, MatchState::kMatched);
+  ASSERT_TRUE(match.pass);
+  EXPECT_EQ(match.pass->curve.size(), static_cast<std::size_t>(frames - 3000 + 1)) << "of all panoramas";
+}
+
 /// The view `ahead_m` in front of the landmark, whose points are all 20 m away.
 cv::Mat seen_from(const cv::Mat& panorama, double ahead_m) {
   const vision::Equirectangular sphere{panorama.cols, panorama.rows};

@@ -59,5 +59,49 @@ TEST(OdometryTrail, LeavesOutWhatIsNotAfterTheLast) {
   EXPECT_DOUBLE_EQ(trail.at(200)->prior.position.x(), 2.0);
 }
 
+/// At 5 m/s; the clock is set back by ten minutes after the first 100 messages.
+class AClockThatIsSetBack : public testing::Test {
+ protected:
+  static constexpr int kBefore = 100, kConfirming = 5;
+
+  static std::int64_t stamp_ns(int i) { return (1'000 - (i < kBefore ? 0 : 600)) * 1'000'000'000LL + i * kPeriod_ns; }
+
+  void drive_to(int end) {
+    for (; next < end; ++next) trail.add(sample(stamp_ns(next), 0.2 * next, 5.0));
+  }
+
+  OdometryTrail trail;
+  int next = 0;
+};
+
+TEST_F(AClockThatIsSetBack, IsFollowed) {
+  drive_to(kBefore + kConfirming);
+  for (; next < kBefore + 1000; drive_to(next + 1)) {
+    EXPECT_DOUBLE_EQ(trail.at(stamp_ns(next - 1))->prior.position.x(), 0.2 * (next - 1));
+  }
+  EXPECT_NEAR(trail.at(stamp_ns(next - 50) - kPeriod_ns / 4)->prior.position.x(), 0.2 * (next - 50) - 0.05, 1e-9);
+}
+
+TEST_F(AClockThatIsSetBack, EndsTheStampsButNotTheWay) {
+  drive_to(kBefore);
+  const double before_m = trail.at(stamp_ns(kBefore - 1))->travelled_m;
+  drive_to(kBefore + kConfirming);
+  const auto here = trail.at(stamp_ns(next - 1));
+  EXPECT_DOUBLE_EQ(here->prior.position.x(), 0.2 * (next - 1));
+  EXPECT_NEAR(here->travelled_m, before_m, 1e-9) << "the way while it is not certain is unknown";
+  EXPECT_DOUBLE_EQ(trail.at(stamp_ns(kBefore - 1))->prior.position.x(), 0.2 * (next - 1)) << "the latest";
+  drive_to(kBefore + kConfirming + 10);
+  EXPECT_NEAR(trail.at(stamp_ns(next - 1))->travelled_m, before_m + 2.0, 1e-9);
+}
+
+TEST_F(AClockThatIsSetBack, IsNotTakenFromSingleMessages) {
+  for (int i = 0; i < 20; ++i) {
+    drive_to(next + 1);
+    trail.add(sample(stamp_ns(kBefore + i), 7.0, 5.0));
+  }
+  EXPECT_DOUBLE_EQ(trail.at(stamp_ns(next - 1))->prior.position.x(), 0.2 * (next - 1));
+  EXPECT_NEAR(trail.at(stamp_ns(next - 1))->travelled_m, 0.2 * (next - 1), 1e-9);
+}
+
 }  // namespace
 }  // namespace panvo::position_corrector

@@ -2,9 +2,11 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -17,6 +19,7 @@
 #include "recorder_parameters.hpp"
 #include "recorder_services.hpp"
 #include "rosbag2_interfaces/msg/WriteSplitEvent.h"
+#include "write_queue.hpp"
 
 namespace panvo::recorder {
 namespace {
@@ -44,14 +47,22 @@ auto as_configuration(const std::string& component, Action action) {
   }
 }
 
-std::unique_ptr<BagWriter> make_writer(const RecorderParameters& parameters) {
-  const BagWriter::Options options{.overwrite = parameters.overwrite,
+/// A process that replaces a crashed one keeps the bag of that one and records to NAME_2, NAME_3 ...
+std::filesystem::path folder_of(const RecorderParameters& parameters, bool is_again) {
+  std::filesystem::path folder = parameters.output.empty() ? dated_bag_name() : parameters.output;
+  const auto name = (folder / "").parent_path().string();  // without a slash at the end
+  for (int i = 2; is_again && std::filesystem::exists(folder); ++i) folder = name + "_" + std::to_string(i);
+  return folder;
+}
+
+std::unique_ptr<BagWriter> make_writer(const RecorderParameters& parameters, bool is_again) {
+  const BagWriter::Options options{.overwrite = parameters.overwrite && !is_again,
                                    .max_file_bytes = static_cast<std::uint64_t>(parameters.max_file_mb * 1e6),
                                    .max_file_time = std::chrono::nanoseconds(std::llround(parameters.max_file_s * 1e9)),
                                    .max_files = static_cast<std::size_t>(parameters.max_files),
                                    .storage = storage_from_text(parameters.storage),
                                    .compression = compression_from_text(parameters.compression)};
-  return std::make_unique<BagWriter>(parameters.output.empty() ? dated_bag_name() : parameters.output, options);
+  return std::make_unique<BagWriter>(folder_of(parameters, is_again), options);
 }
 
 /// Records topics to a bag. Messages wait in a queue of bounded size, and a second stage writes them. A short delay of
@@ -63,10 +74,11 @@ class RecorderComponent final : public runtime::Component {
         parameters_(context.parameters<RecorderParameters>()),
         filter_(
             as_configuration(context.name(), [this] { return TopicFilter(parameters_.topics, parameters_.exclude); })),
-        writer_(as_configuration(context.name(), [this] { return make_writer(parameters_); })),
+        writer_(as_configuration(context.name(), [&, this] { return make_writer(parameters_, context.is_again()); })),
         splits_(context.output(kWriteSplit)),
         is_paused_(parameters_.start_paused),
-        writing_(context.stage<Waiting>("write", kMaxWaiting, [this](Waiting message) { write(std::move(message)); })) {
+        waiting_(static_cast<std::size_t>(parameters_.queue_mb) * 1'000'000, kMaxWaiting),
+        writing_(context.stage<Turn>("write", kMaxWaiting, [this](Turn) { write_next(); })) {
     context.tap([this](const TopicDescription& topic) { return is_wanted(topic); }, kTapDepth,
                 [this](const TopicDescription& topic, const SamplePtr& sample) { take(topic, sample); });
     context.on_end([this] {
@@ -83,7 +95,8 @@ class RecorderComponent final : public runtime::Component {
       context.log().warn(
           "max_files limits nothing without max_file_mb or max_file_s, unless ~/split_bagfile is called");
     }
-    context.log().info("recording to {}{}", writer_->path().string(), is_paused_ ? ", paused" : "");
+    context.log().info("recording to {}{}{}", writer_->path().string(), is_paused_ ? ", paused" : "",
+                       context.is_again() ? "; what was recorded before the crash is kept" : "");
   }
 
   ~RecorderComponent() override {
@@ -95,11 +108,8 @@ class RecorderComponent final : public runtime::Component {
   }
 
  private:
-  struct Waiting {
-    const TopicDescription* topic = nullptr;  // null: a request to start the next file
-    SamplePtr sample;
-    std::uint64_t dropped_before = 0;  // messages of this topic dropped since the previous queued one
-  };
+  using Waiting = WriteQueue::Item;
+  struct Turn {};  // tells the writing stage to write one more
 
   static constexpr std::size_t kTapDepth = 10'000;     // not reached, since take() is fast
   static constexpr std::size_t kMaxWaiting = 100'000;  // limit for messages too small to fill queue_mb
@@ -107,21 +117,37 @@ class RecorderComponent final : public runtime::Component {
   static constexpr std::int64_t kRelativeTimes =
       86'400'000'000'000;  // earlier times are relative, not system time: 1 day
 
-  /// Runs once, at the end of the run or when the component is unloaded.
+  static constexpr std::chrono::seconds kPatience{5};  // with a slow disk; the process is killed after 20 s
+
+  /// Runs once, at the end of the run or when the component is unloaded; its threads have stopped.
   void finish() {
     if (std::exchange(is_finished_, true)) {
       return;
     }
-    for (const auto& [topic, count] : dropped_) {
-      writer_->count_dropped(topic, count);
-    }
     if (const auto left_out = describe_left_out(); !left_out.empty()) {
       context_.log().warn("{}", left_out);
     }
-    store_early(0);
+    std::optional<BagError> failure;
+    try {
+      write_rest();
+    } catch (const BagError& error) {
+      failure = error;
+    }
+    waiting_.close();
+    count_dropped();
     writer_->close();
+    if (failure) {
+      throw *failure;
+    }
     context_.log().info("recorded {} messages to {}, {} dropped", writer_->committed_messages(),
                         writer_->path().string(), writer_->dropped_messages());
+  }
+
+  void write_rest() {
+    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    while (std::chrono::steady_clock::now() < give_up && write_next()) {
+    }
+    store_early(0);
   }
 
   bool is_chosen(const TopicDescription& topic) const {
@@ -180,15 +206,11 @@ class RecorderComponent final : public runtime::Component {
     if (is_news_left_out_.exchange(false)) {
       context_.log().warn_throttled("max_topics", "{}", describe_left_out());
     }
-    if (waiting_bytes_ >= static_cast<std::size_t>(parameters_.queue_mb) * 1'000'000 ||
-        waiting_messages_ + 1 >= kMaxWaiting) {
-      count_dropped(topic.name);
-      return;
+    if (waiting_.push(topic, sample)) {
+      writing_.push({});
+    } else if (!waiting_.is_closed()) {  // else the failure has been logged
+      tell_dropped();
     }
-    waiting_bytes_ += sample->bytes().size();
-    ++waiting_messages_;
-    const auto dropped = dropped_.extract(topic.name);
-    writing_.push({&topic, sample, dropped ? dropped.mapped() : 0});
   }
 
   void set_paused(bool paused) {
@@ -200,12 +222,11 @@ class RecorderComponent final : public runtime::Component {
 
   /// In the order of the messages: those received before it are in the file that is closed.
   void request_split() {
-    ++waiting_messages_;
+    waiting_.push_split();
     writing_.push({});
   }
 
   void split() {
-    --waiting_messages_;
     writer_->split();
     tell_splits();
   }
@@ -226,8 +247,7 @@ class RecorderComponent final : public runtime::Component {
     return below.substr(0, below.rfind('/'));
   }
 
-  void count_dropped(const std::string& topic) {
-    ++dropped_[topic];
+  void tell_dropped() {
     ++all_dropped_;
     if ((all_dropped_ & (all_dropped_ - 1)) == 0) {  // log the 1st, 2nd, 4th, 8th ...
       context_.log().warn("{} messages dropped: writing to {} is too slow; record fewer topics or use a faster disk",
@@ -235,8 +255,24 @@ class RecorderComponent final : public runtime::Component {
     }
   }
 
+  /// False if nothing waits. A BagError stops the writing stage, and nothing more is written.
+  bool write_next() {
+    auto next = waiting_.pop();
+    if (!next) {
+      return false;
+    }
+    try {
+      write(std::move(*next));
+    } catch (const BagError&) {
+      waiting_.close();
+      throw;
+    }
+    return true;
+  }
+
   void write(Waiting message) {
     if (message.topic == nullptr) {
+      waiting_.release(message);
       split();
       return;
     }
@@ -264,13 +300,16 @@ class RecorderComponent final : public runtime::Component {
     if (is_new) {
       place->second = add_topic(*message.topic);
     }
-    if (message.dropped_before > 0) {
-      writer_->count_dropped(message.topic->name, message.dropped_before);
-    }
-    writer_->write(place->second, time_ns, bytes);  // a BagError stops this stage only
-    waiting_bytes_ -= bytes.size();
-    --waiting_messages_;
+    count_dropped();
+    writer_->write(place->second, time_ns, bytes);
+    waiting_.release(message);
     tell_splits();
+  }
+
+  void count_dropped() {
+    for (const auto& [topic, count] : waiting_.take_dropped()) {
+      writer_->count_dropped(topic, count);
+    }
   }
 
   int add_topic(const TopicDescription& topic) {
@@ -290,15 +329,13 @@ class RecorderComponent final : public runtime::Component {
   const std::unique_ptr<BagWriter> writer_;
   runtime::Output<rosbag2_interfaces::msg::WriteSplitEvent> splits_;  // used by the writing stage
   std::atomic<bool> is_paused_;
-  runtime::Stage<Waiting> writing_;
+  WriteQueue waiting_;
+  runtime::Stage<Turn> writing_;
 
   std::mutex topics_mutex_;  // guards the next two
   std::set<std::string> wanted_topics_, left_out_;
   std::atomic<bool> is_news_left_out_ = false;
-  std::atomic<std::size_t> waiting_bytes_ = 0;
-  std::atomic<std::size_t> waiting_messages_ = 0;
-  std::map<std::string, std::uint64_t> dropped_;  // used by take(); not yet reported to the writer
-  std::uint64_t all_dropped_ = 0;
+  std::uint64_t all_dropped_ = 0;       // used by take()
   std::map<std::string, int> handles_;  // this and the following: used by the writing stage
   std::vector<Waiting> early_;
   bool is_finished_ = false;

@@ -26,7 +26,8 @@ struct RecorderParameters {
   static void describe(Field&& field) {
     using P = RecorderParameters;
     field.path(&P::output, "output", "folder of the bag; empty: rosbag2_ with date and time, in the working directory");
-    field(&P::overwrite, "overwrite", "", "replace an existing bag");
+    field(&P::overwrite, "overwrite", "",
+          "replace an existing bag; never one of the same run, before a crash of the process");
     field(&P::topics, "topics", "", "topics to record: names or regular expressions for whole names; empty: all");
     field(&P::exclude, "exclude", "", "topics not to record: names or regular expressions for whole names");
     field(&P::include_images, "include_images", "", "also record sensor_msgs/Image and CompressedImage");

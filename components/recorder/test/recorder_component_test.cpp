@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "called_node.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/recorder/bag_reader.hpp"
 #include "panvo/runtime/testing.hpp"
@@ -58,6 +59,19 @@ class ThreeImages final : public runtime::Component {
   runtime::Output<sensor_msgs::msg::Image> images_;
 };
 
+/// Unloads the recorder when that has received three images and, in replay, written none of them.
+class Unloader final : public runtime::Component {
+ public:
+  Unloader(runtime::Context& context, runtime::Container& container) {
+    context.input(topics::kStereoLeftImageRaw, [&, this](const std::shared_ptr<const sensor_msgs::msg::Image>&) {
+      if (++images_ == 3) container.unload("recorder");
+    });
+  }
+
+ private:
+  int images_ = 0;
+};
+
 /// A source that publishes one odometry at time kTime.
 template <std::int64_t kTime>
 class OneStep final : public runtime::Component, public runtime::Source {
@@ -81,9 +95,9 @@ class Recorder : public testing::Test {
  protected:
   using ParameterTexts = std::map<std::string, std::string>;
 
-  void record(ParameterTexts parameters = {}) {
+  void record(ParameterTexts parameters = {}, bool again = false) {
     parameters.emplace("output", bag_.string());
-    harness_.emplace();
+    harness_.emplace(runtime::ContainerOptions{.replay = true, .again = again});
     harness_->load("panvo_recorder", "RecorderComponent", parameters);
   }
   std::string refusal(const ParameterTexts& parameters) {
@@ -202,6 +216,32 @@ TEST_F(Recorder, CountsWhatItDropsWhenTheDiskIsTooSlow) {
   const auto messages = read_all(reader);
   EXPECT_EQ(messages.size() + dropped_messages(reader.metadata()), 3u);
   EXPECT_GT(dropped_messages(reader.metadata(), "/stereo/left/image_raw"), 0u);
+}
+
+TEST_F(Recorder, WritesWhatWaitsWhenItIsUnloaded) {
+  record({{"queue_mb", "1"}, {"topics", "[/stereo/.*]"}});
+  harness_->add<ThreeImages>("three_images");
+  harness_->container().add(description("unloader"), [this](runtime::Context& context) {
+    return std::make_unique<Unloader>(context, harness_->container());
+  });
+  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  EXPECT_THAT(harness_->container().components(), testing::Not(testing::Contains("recorder")));
+  BagReader reader(bag_);
+  EXPECT_EQ(read_all(reader).size(), 2u);
+  EXPECT_EQ(dropped_messages(reader.metadata(), "/stereo/left/image_raw"), 1u) << "which found the queue full";
+}
+
+TEST_F(Recorder, KeepsTheBagsOfTheCrashedProcessesThatItReplaces) {
+  for (const bool again : {false, true, true}) {
+    record({{"overwrite", "true"}, {"topics", "[/odometry/.*]"}}, again);
+    harness_->publish(topics::kOdometryBinocular, odometry(1));
+    EXPECT_EQ(harness_->log_contains("what was recorded before the crash is kept"), again);
+    harness_.reset();
+  }
+  for (const char* name : {"bag", "bag_2", "bag_3"}) {
+    BagReader reader(folder_ / name);
+    EXPECT_EQ(read_all(reader).size(), 1u) << name;
+  }
 }
 
 TEST_F(Recorder, LeavesOutTopicsBeyondTheMostAndNamesThem) {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <condition_variable>
+#include <future>
 #include <mutex>
-#include <thread>
 
 #include "called_node.hpp"
 #include "panvo/interfaces/topics.hpp"
@@ -27,7 +27,10 @@ using rosbag2_interfaces::msg::WriteSplitEvent;
 /// A recorder "/rosbag2_recorder" of odometry that the test publishes.
 class RecorderServices : public testing::Test {
  protected:
-  void start(const std::map<std::string, std::string>& parameters = {}) {
+  void TearDown() override { container_.request_stop(); }  // also after a failed assertion
+
+  void start(const std::map<std::string, std::string>& parameters = {},
+             runtime::OnError on_error = runtime::OnError::kIgnore) {
     container_.observe([](const runtime::TopicDescription& topic) { return topic.name == "/events/write_split"; },
                        [this](const runtime::TopicDescription&, const runtime::SamplePtr& sample) {
                          const std::lock_guard lock(mutex_);
@@ -42,6 +45,7 @@ class RecorderServices : public testing::Test {
     auto recorder = test::description("rosbag2_recorder");
     recorder.package = "panvo_recorder";
     recorder.plugin = "RecorderComponent";
+    recorder.on_error = on_error;
     for (const auto& [name, value] : parameters) {
       recorder.parameters[name] = {.items = {value}, .is_list = false, .where = {"test", 0}};
     }
@@ -49,14 +53,16 @@ class RecorderServices : public testing::Test {
     recorder.parameters["topics"] = {.items = {"/odometry/binocular"}, .is_list = true, .where = {"test", 0}};
     container_.load(recorder);
     container_.start();
-    run_ = std::thread([this] { container_.run(); });
+    run_ = std::async(std::launch::async, [this] { return container_.run(); });
   }
 
-  void stop() {
+  /// Returns the problems of the run.
+  std::vector<std::string> stop() {
     container_.request_stop();
-    run_.join();
+    auto problems = run_.get();
     access_.reset();
     odometry_.reset();
+    return problems;
   }
 
   template <class Response, class Request>
@@ -91,16 +97,26 @@ class RecorderServices : public testing::Test {
     return files;
   }
 
+  bool is_logged(const std::string& text) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(30), [&] { return test::any_contains(log_, text); });
+  }
+
   panvo::test::TemporaryFolder folder_;
   const std::filesystem::path bag_ = folder_ / "bag";
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<WriteSplitEvent> splits_;
-  runtime::Container container_{
-      runtime::ContainerOptions{.rate = 1, .log = [](runtime::LogLevel, const std::string&, const std::string&) {}}};
+  std::vector<std::string> log_;
+  runtime::Container container_{runtime::ContainerOptions{
+      .rate = 1, .log = [this](runtime::LogLevel, const std::string& component, const std::string& text) {
+        const std::lock_guard lock(mutex_);
+        log_.push_back(component + ": " + text);
+        changed_.notify_all();
+      }}};
   std::unique_ptr<runtime::TopicAccess> access_;
   std::optional<runtime::Output<nav_msgs::msg::Odometry>> odometry_;
-  std::thread run_;
+  std::future<std::vector<std::string>> run_;
 };
 
 TEST_F(RecorderServices, LeaveOutWhatComesWhilePaused) {
@@ -142,6 +158,70 @@ TEST_F(RecorderServices, StartTheNextFileAndTellIt) {
   is_paused();
   stop();
   EXPECT_THAT(recorded(), testing::ElementsAre(testing::ElementsAre(1), testing::ElementsAre(2)));
+}
+
+class UnloadedRecorder : public RecorderServices {};
+
+TEST_F(UnloadedRecorder, HasWrittenAllThatWasPublished) {
+  start();
+  for (int i = 0; i < 2000; ++i) publish(i);
+  EXPECT_TRUE(container_.unload("rosbag2_recorder"));
+  stop();
+  const BagReader bag(bag_);
+  EXPECT_EQ(bag.metadata().message_count, 2000u);
+  EXPECT_EQ(dropped_messages(bag.metadata()), 0u);
+}
+
+/// Throws, unless it is made anew.
+class Fragile final : public runtime::Component {
+ public:
+  Fragile(runtime::Context& context, std::promise<void>& made_anew) {
+    if (context.is_again()) {
+      made_anew.set_value();
+    } else {
+      context.every(std::chrono::milliseconds(1), [] { throw std::runtime_error("broken"); });
+    }
+  }
+};
+
+/// A recorder that may overwrite bags and whose file is removed.
+class FailedRecorder : public RecorderServices {
+ protected:
+  void fail() {
+    start({{"overwrite", "true"}}, runtime::OnError::kRestart);
+    publish(1);
+    call<SplitBagfile_Response>("split_bagfile", SplitBagfile_Request());
+    ASSERT_EQ(splits(1).size(), 1u);
+    publish(2);
+    is_paused();  // it has received it
+    std::filesystem::remove(bag_ / "bag_1.db3");
+    call<SplitBagfile_Response>("split_bagfile", SplitBagfile_Request());
+    ASSERT_TRUE(is_logged("rosbag2_recorder: stopped by an error"));
+  }
+  /// A component that has failed later is made anew later, too.
+  void wait_for_restarts() {
+    std::promise<void> made_anew;
+    auto fragile = test::description("fragile");
+    fragile.on_error = runtime::OnError::kRestart;
+    container_.add(fragile, [&](runtime::Context& context) { return std::make_unique<Fragile>(context, made_anew); });
+    made_anew.get_future().wait();
+  }
+};
+
+TEST_F(FailedRecorder, IsNotMadeAnewAndKeepsItsBag) {
+  fail();
+  wait_for_restarts();
+  EXPECT_THAT(stop(), testing::ElementsAre("rosbag2_recorder stopped by an error, see the log"));
+  EXPECT_THAT(recorded(), testing::ElementsAre(testing::ElementsAre(1), testing::ElementsAre(2)));
+}
+
+TEST_F(FailedRecorder, CountsWhatItCouldNotRecord) {
+  fail();
+  for (int i = 3; i < 6; ++i) publish(i);
+  is_paused();
+  stop();
+  const BagReader bag(bag_);
+  EXPECT_EQ(dropped_messages(bag.metadata(), "/odometry/binocular"), 3u);
 }
 
 }  // namespace

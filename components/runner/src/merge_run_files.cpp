@@ -36,6 +36,7 @@ void add(RunSummary& all, const RunSummary& one) {
   all.frames_in += one.frames_in;
   all.frames_out += one.frames_out;
   all.frames_unreliable += one.frames_unreliable;
+  all.lines += one.lines;
   append(all.queues, one.queues);
   all.cpu_s += one.cpu_s;
   all.wall_s = std::max(all.wall_s, one.wall_s);
@@ -93,7 +94,8 @@ void move_up(const std::filesystem::path& folder, const std::string& subfolder, 
 
 }  // namespace
 
-void merge_run_files(const std::filesystem::path& folder, const std::vector<std::string>& subfolders) {
+bool merge_run_files(const std::filesystem::path& folder, const std::vector<std::string>& subfolders,
+                     bool must_have_results) {
   std::optional<RunSummary> all;
   RunSummary killed;
   Json timing{{"components", Json::object()}};
@@ -114,12 +116,18 @@ void merge_run_files(const std::filesystem::path& folder, const std::vector<std:
   }
   RunSummary merged = all.value_or(RunSummary{});
   add(merged, killed);
+  const bool lacks_results = must_have_results && merged.lines == 0 && merged.exit_status == 0;
+  if (lacks_results) {
+    merged.problems.push_back(nothing_written(folder));
+    merged.exit_status = 1;
+  }
   write_atomically(folder / kTimingFile, to_text(timing));
   write_atomically(folder / kSummaryFile, to_text(summary_json(merged)));
   std::set<std::string> taken;
   for (const auto& subfolder : subfolders) {
     move_up(folder, subfolder, taken);
   }
+  return !lacks_results;
 }
 
 }  // namespace panvo::runner

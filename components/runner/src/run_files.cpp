@@ -80,6 +80,8 @@ bool is_of(const runtime::TopicDescription& topic, const FileKind& kind) {
   return topic.type_name == kind.type_name && topic.name.ends_with(kind.topic_ending);
 }
 
+std::string file_name_of(const FileKind& kind) { return std::string(kind.file_stem) + std::string(kind.file_ending); }
+
 /// "/fleet/robot/odometry/binocular" -> "fleet_robot_"
 std::string prefix_of(std::string_view topic, const FileKind& kind) {
   topic.remove_suffix(kind.topic_ending.size() - 1);
@@ -89,6 +91,17 @@ std::string prefix_of(std::string_view topic, const FileKind& kind) {
 }
 
 }  // namespace
+
+bool is_result_file(std::string_view name, bool may_have_namespace) {
+  return std::ranges::any_of(file_kinds(), [&](const FileKind& kind) {
+    const std::string plain = file_name_of(kind);
+    return name == plain || (may_have_namespace && name.ends_with("_" + plain));
+  });
+}
+
+std::string nothing_written(const std::filesystem::path& folder) {
+  return "nothing was written to " + folder.string() + ": no odometry, landmark or other result was published";
+}
 
 struct RunFiles::TopicFile {
   TopicFile(const std::filesystem::path& path, const FileKind& kind_of_file) : kind(&kind_of_file), lines(path) {
@@ -120,9 +133,7 @@ RunFiles::RunFiles(std::filesystem::path folder) : folder_(std::move(folder)) {
   if (error) {
     throw_cannot_write(folder_, error.value());
   }
-  for (const auto& kind : file_kinds()) {
-    std::filesystem::remove(folder_ / (std::string(kind.file_stem) + std::string(kind.file_ending)), error);
-  }
+  for (const auto& kind : file_kinds()) std::filesystem::remove(folder_ / file_name_of(kind), error);
   std::filesystem::remove(folder_ / kSummaryFile, error);
   std::filesystem::remove(folder_ / kTimingFile, error);
   // Detects write errors now instead of at the end of a long run.
@@ -141,26 +152,28 @@ void RunFiles::write(const runtime::TopicDescription& topic, const runtime::Samp
   if (is_new) {
     for (const auto& kind : file_kinds()) {
       if (!is_of(topic, kind)) continue;
-      const auto name = std::string(kind.file_stem) + std::string(kind.file_ending);
       const bool is_taken = std::any_of(files_by_topic_.begin(), files_by_topic_.end(), [&](const auto& other) {
         return std::any_of(other.second.begin(), other.second.end(),
                            [&](const auto& file) { return file->kind == &kind; });
       });
-      found->second.push_back(
-          std::make_unique<TopicFile>(folder_ / ((is_taken ? prefix_of(topic.name, kind) : "") + name), kind));
+      found->second.push_back(std::make_unique<TopicFile>(
+          folder_ / ((is_taken ? prefix_of(topic.name, kind) : "") + file_name_of(kind)), kind));
     }
   }
   for (const auto& file : found->second) file->append(sample);
 }
 
-bool RunFiles::has_lines() const {
-  return std::ranges::any_of(files_by_topic_, [](const auto& topic) {
-    return std::ranges::any_of(topic.second, [](const auto& file) { return file->written > 0; });
-  });
+std::uint64_t RunFiles::lines() const {
+  std::uint64_t lines = 0;
+  for (const auto& [topic, files] : files_by_topic_) {
+    for (const auto& file : files) lines += file->written;
+  }
+  return lines;
 }
 
 void RunFiles::finish(const RunSummary& summary, const runtime::ComponentTimes& times_by_component) {
   RunSummary complete = summary;
+  complete.lines = lines();
   for (const auto& [topic, files] : files_by_topic_) {
     for (const auto& file : files) {
       if (file->left_out == 0) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
+#include <vector>
 
 #include "output_file.hpp"
 #include "panvo/runner/run_files.hpp"
@@ -19,6 +20,16 @@ bool is_of_a_run(const fs::path& folder) {
   return fs::exists(folder / kMarkFile) || (fs::exists(folder / kSummaryFile) && fs::exists(folder / kTimingFile));
 }
 
+/// In a folder that is not a run's, a file with a prefix may be somebody else's.
+void remove_results(const fs::path& folder) {
+  const bool may_have_namespace = is_of_a_run(folder);
+  std::vector<fs::path> results{folder / kSummaryFile, folder / kTimingFile};
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (is_result_file(entry.path().filename().string(), may_have_namespace)) results.push_back(entry.path());
+  }
+  for (const auto& file : results) fs::remove(file);
+}
+
 }  // namespace
 
 void claim_run_folder(const fs::path& folder, bool overwrite) {
@@ -32,7 +43,7 @@ void claim_run_folder(const fs::path& folder, bool overwrite) {
                                  fs::directory_iterator(folder)->path().filename().string() +
                                  " and is not a run folder; choose another folder, or pass --overwrite");
     }
-    for (const char* file : {kSummaryFile, kTimingFile}) fs::remove(folder / file);
+    remove_results(folder);
   } catch (const fs::filesystem_error& error) {
     throw_cannot_write(folder, error.code().value());
   }

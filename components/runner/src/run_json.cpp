@@ -46,6 +46,7 @@ Json summary_json(const RunSummary& summary) {
           {"frames_in", summary.frames_in},
           {"frames_out", summary.frames_out},
           {"frames_unreliable", summary.frames_unreliable},
+          {"lines", summary.lines},
           {"wall_s", summary.wall_s},
           {"cpu_s", summary.cpu_s},
           {"peak_memory_mb", summary.peak_memory_mb},
@@ -65,6 +66,7 @@ RunSummary summary_from(const Json& json) {
   json.at("frames_in").get_to(summary.frames_in);
   json.at("frames_out").get_to(summary.frames_out);
   json.at("frames_unreliable").get_to(summary.frames_unreliable);
+  json.at("lines").get_to(summary.lines);
   json.at("wall_s").get_to(summary.wall_s);
   json.at("cpu_s").get_to(summary.cpu_s);
   json.at("peak_memory_mb").get_to(summary.peak_memory_mb);

@@ -32,7 +32,7 @@ TEST(MergeRunFiles, MakesOneRunOfSeveralContainers) {
   folder.write("player/run.log", "player");
   folder.write("odometry/run.log", "odometry");
   folder.write("run.log", "of an earlier run");
-  merge_run_files(folder.path(), {"player", "odometry"});
+  EXPECT_TRUE(merge_run_files(folder.path(), {"player", "odometry"}, true));
 
   const auto summary = nlohmann::json::parse(folder.read("summary.json"));
   EXPECT_EQ(summary["frames_in"], 200);
@@ -59,7 +59,7 @@ TEST(MergeRunFiles, NamesContainersThatWereKilledAndKeepsWhatTheyLeft) {
   RunFiles(folder.path() / "player").finish(summary_of("player", 10), {});
   RunFiles(folder.path() / "odometry").write(kBinocular, sample_of(odometry_at(1, 0, 2)));
   folder.write("cut/summary.json", "{\"version\": \"0.1");
-  merge_run_files(folder.path(), {"odometry", "player", "cut", "none"});
+  merge_run_files(folder.path(), {"odometry", "player", "cut", "none"}, false);
   const auto summary = nlohmann::json::parse(folder.read("summary.json"));
   EXPECT_EQ(summary["exit_status"], 1);
   EXPECT_EQ(summary["version"], "0.1.0");
@@ -69,6 +69,20 @@ TEST(MergeRunFiles, NamesContainersThatWereKilledAndKeepsWhatTheyLeft) {
                           "container none left no summary.json: it did not finish"));
   EXPECT_EQ(folder.read("odometry_binocular.tum"), "1.000000000 2 0 0 0 0 0 1\n");
   EXPECT_EQ(nlohmann::json::parse(folder.read("timing.json"))["components"], nlohmann::json::object());
+}
+
+TEST(MergeRunFiles, ReportsARunInWhichNoContainerWroteAnything) {
+  const TemporaryFolder folder;
+  for (const bool must_have_results : {false, true}) {
+    for (const char* container : {"player", "odometry"}) {
+      RunFiles files(folder.path() / container);
+      files.finish(RunSummary{}, {});
+    }
+    EXPECT_NE(merge_run_files(folder.path(), {"player", "odometry"}, must_have_results), must_have_results);
+    const auto summary = nlohmann::json::parse(folder.read("summary.json"));
+    EXPECT_EQ(summary["exit_status"], must_have_results ? 1 : 0);
+    EXPECT_EQ(summary["problems"].size(), must_have_results ? 1U : 0U);
+  }
 }
 
 }  // namespace

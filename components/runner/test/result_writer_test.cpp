@@ -75,7 +75,7 @@ TEST(ResultWriter, DiscardsWhatComesAfterTheEnd) {
   writer.finish();
   writer.add(kBinocular, sample_of(odometry_at(1, 0, 0)));
   writer.finish();
-  EXPECT_FALSE(files.has_lines());
+  EXPECT_EQ(files.lines(), 0U);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
+#include <string>
 
 #include "panvo/runner/run_files.hpp"
 #include "panvo/runtime/errors.hpp"
@@ -50,6 +52,26 @@ TEST_F(RunFolder, OfAnEarlierRunDoesNotKeepThatOnesSummary) {
   std::ofstream(folder_ / "summary.json") << "{}";
   claim_run_folder(folder_, false);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "summary.json")) << "a run that is killed has none";
+}
+
+TEST_F(RunFolder, OfAnEarlierRunDoesNotKeepResultsOfTopicsThatTheNextOneLacks) {
+  claim_run_folder(folder_, false);
+  for (const char* name : {"odometry_enhanced.tum", "r2_odometry_enhanced.tum", "odometry_enhanced_covariance.csv",
+                           "states.csv", "notes.txt", "run.log"}) {
+    std::ofstream(folder_ / name) << "earlier\n";
+  }
+  claim_run_folder(folder_, false);
+  std::set<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) left.insert(entry.path().filename());
+  EXPECT_THAT(left, testing::ElementsAre(".panvo_run", "notes.txt", "run.log"));
+}
+
+TEST_F(RunFolder, OfSomebodyElseKeepsItsFilesWithOtherNames) {
+  std::filesystem::create_directories(folder_);
+  for (const char* name : {"states.csv", "my_states.csv"}) std::ofstream(folder_ / name) << "precious\n";
+  claim_run_folder(folder_, true);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "states.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "my_states.csv"));
 }
 
 TEST_F(RunFolder, ThatIsAFileIsRefused) {

@@ -2,10 +2,12 @@
 #include "container_process.hpp"
 
 #include <fmt/ranges.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -115,10 +117,9 @@ std::vector<std::string> find_nothing(const RunOptions& options, const Container
   if (container.links().has_source && container.source_steps() == 0) {
     problems.emplace_back("nothing was played: the data has no messages, or none of the selected topics");
   }
-  // With several containers, some may publish no recorded topic.
-  if (files && !files->has_lines() && !options.link_in && options.container.empty()) {
-    problems.push_back("nothing was written to " + options.out +
-                       ": no odometry, landmark or other result was published");
+  // With several containers, some may publish no recorded topic: the launcher judges.
+  if (files && files->lines() == 0 && !options.link_in && options.container.empty()) {
+    problems.push_back(nothing_written(options.out));
   }
   return problems;
 }
@@ -212,6 +213,8 @@ ExitStatus conclude(const RunOptions& options, const Container& container, RunFi
 ExitStatus run_container(const RunOptions& options, const ContainerDescription& description,
                          const std::vector<std::string>& notes) {
   const auto start = std::chrono::steady_clock::now();
+  // Also after a launcher that was killed. It has to be here: starting a program with capabilities resets it.
+  if (options.link_in) prctl(PR_SET_PDEATHSIG, SIGTERM);
   Stop stop;
   std::atomic<int> signal = 0;
   const StopSignals signals([&](int caught) {
@@ -243,7 +246,8 @@ ExitStatus run_container(const RunOptions& options, const ContainerDescription& 
   if (taken_names) taken_names->refuse();
   container.on_progress([&](runtime::Source::Progress progress) { console.progress(progress); });
   container.start();
-  if (options.link_in && options.link_out) Link(*options.link_in, *options.link_out).meet(container, log);
+  if (options.link_in && options.link_out)
+    Link(*options.link_in, *options.link_out, stop.requested()).meet(container, log);
   await_peers(container, options.awaited, stop.requested(), log);
   std::optional<ServiceManager> service;
   QueueWatch queues;

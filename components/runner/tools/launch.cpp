@@ -50,6 +50,7 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   };
   add("--dataset", options.dataset);
   add("--bag", options.bag);
+  add("--calibration", options.calibration);
   add("--out", child.out);
   add("--rate", std::to_string(options.rate));
   for (const auto& setting : options.settings) add("--set", setting);
@@ -64,9 +65,7 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   if (child.again) words.push_back("--again");
   if (options.verbose) words.push_back("--verbose");
   add("--container", child.name);
-  if (!options.container.empty()) {  // peers are in other systems
-    for (const auto& topic : options.awaited) add("--await", topic);
-  }
+  for (const auto& topic : options.awaited) add("--await", topic);
   add("--link-in", std::to_string(link_in));
   add("--link-out", std::to_string(link_out));
   return words;
@@ -105,9 +104,9 @@ void start(const RunOptions& options, Child& child) {
   child.running = true;
 }
 
-/// Reads lines from the container until `last`; false if it ended.
-bool read_until(Child& child, const std::string& last) {
-  while (const auto line = read_pipe_line(child.from_child)) {
+/// Reads lines from the container until `last`; false if it ended, or on `stop`.
+bool read_until(Child& child, const std::string& last, const std::atomic<bool>& stop) {
+  while (const auto line = read_pipe_line(child.from_child, stop)) {
     if (*line == last) return true;
     if (*line == "has_source") child.has_source = true;
     if (line->starts_with("publishes ")) child.published.insert(line->substr(10));
@@ -129,20 +128,21 @@ void tell_peers(const Child& child, const std::vector<Child>& children) {
   write_pipe_line(child.to_child, "connect");
 }
 
-bool connect(std::vector<Child>& children) {
+bool connect(std::vector<Child>& children, const std::atomic<bool>& stop) {
   for (auto& child : children) {
-    if (!read_until(child, "loaded")) return false;
+    if (!read_until(child, "loaded", stop)) return false;
   }
   for (const auto& child : children) tell_peers(child, children);
   for (auto& child : children) {
-    if (!read_until(child, "connected")) return false;
+    if (!read_until(child, "connected", stop)) return false;
   }
   for (auto& child : children) write_pipe_line(child.to_child, "start");
   return true;
 }
 
 /// Restarts a crashed process. If it crashes again, this is noticed like the first crash.
-void start_again(const RunOptions& options, Child& child, const std::vector<Child>& children) {
+void start_again(const RunOptions& options, Child& child, const std::vector<Child>& children,
+                 const std::atomic<bool>& stop) {
   child.starts_again.reset();
   close(child.to_child);
   close(child.from_child);
@@ -150,9 +150,9 @@ void start_again(const RunOptions& options, Child& child, const std::vector<Chil
   child.subscribed.clear();
   child.again = true;
   start(options, child);
-  if (!read_until(child, "loaded")) return;
+  if (!read_until(child, "loaded", stop)) return;
   tell_peers(child, children);
-  if (read_until(child, "connected")) write_pipe_line(child.to_child, "start");
+  if (read_until(child, "connected", stop)) write_pipe_line(child.to_child, "start");
 }
 
 /// Whether it was playing and was stopped, like every container on request.
@@ -215,7 +215,7 @@ void supervise(const RunOptions& options, std::vector<Child>& children, const st
       }
       if (child.starts_again && (asked || stop)) child.starts_again.reset();
       if (child.starts_again && std::chrono::steady_clock::now() >= *child.starts_again) {
-        start_again(options, child, children);
+        start_again(options, child, children, stop);
       }
       running |= child.running || child.starts_again;
       playing |= (child.running || child.starts_again) && child.has_source;
@@ -250,7 +250,7 @@ ExitStatus launch(const RunOptions& given, const runtime::SystemDescription& sys
     signal = caught;
     stop = true;
   });
-  const bool connected = connect(children);
+  const bool connected = connect(children, stop);
   std::optional<ServiceManager> service;
   // supervise() notices containers that end, not ones without progress.
   if (connected) service.emplace([] { return true; });
@@ -267,12 +267,16 @@ ExitStatus launch(const RunOptions& given, const runtime::SystemDescription& sys
       if (status == ExitStatus::kOk && signal != 0) status = interrupted_by(signal);
     } else if (child.status != 0) {
       std::fprintf(stderr, "panvo run: container %s failed (exit status %d)\n", child.name.c_str(), child.status);
-      status = child.status == static_cast<int>(ExitStatus::kBadConfiguration) ? ExitStatus::kBadConfiguration
-                                                                               : ExitStatus::kRunFailed;
+      const bool is_bad =
+          status == ExitStatus::kBadConfiguration || child.status == static_cast<int>(ExitStatus::kBadConfiguration);
+      status = is_bad ? ExitStatus::kBadConfiguration : ExitStatus::kRunFailed;
     }
   }
-  if (!folders.empty() && status != ExitStatus::kBadConfiguration) merge_run_files(options.out, folders);
-  return status;
+  if (folders.empty() || status == ExitStatus::kBadConfiguration) return status;
+  const bool must_have_results = status == ExitStatus::kOk && options.container.empty();
+  if (merge_run_files(options.out, folders, must_have_results)) return status;
+  std::fprintf(stderr, "panvo run: %s\n", nothing_written(options.out).c_str());
+  return ExitStatus::kRunFailed;
 }
 
 }  // namespace panvo::runner

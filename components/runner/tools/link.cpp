@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "link.hpp"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,9 +11,13 @@
 
 namespace panvo::runner {
 
-std::optional<std::string> read_pipe_line(int pipe) {
+std::optional<std::string> read_pipe_line(int pipe, const std::atomic<bool>& stop) {
+  constexpr int kStep_ms = 50;
   std::string line;
   for (char letter = 0;;) {
+    if (stop) return std::nullopt;
+    pollfd readable{.fd = pipe, .events = POLLIN, .revents = 0};
+    if (poll(&readable, 1, kStep_ms) <= 0) continue;
     const ssize_t count = read(pipe, &letter, 1);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return std::nullopt;
@@ -39,8 +44,9 @@ void Link::meet(runtime::Container& container, const runtime::Logger::Write& log
   if (links.has_source) write_line("has_source");
   write_line("loaded");
   std::map<std::string, runtime::Container::Peers> peers;
-  for (std::string line = read_line(); line != "connect"; line = read_line()) {
-    std::istringstream words(line);
+  for (auto line = read_line(); line != "connect"; line = read_line()) {
+    if (!line) return;
+    std::istringstream words(*line);
     std::string verb, topic;
     runtime::Container::Peers wanted;
     words >> verb >> topic >> wanted.readers >> wanted.writers;
@@ -54,14 +60,16 @@ void Link::meet(runtime::Container& container, const runtime::Logger::Write& log
             kLimit.count()));
   }
   write_line("connected");
-  while (read_line() != "start") {
+  while (const auto line = read_line()) {
+    if (line == "start") return;
   }
 }
 
-std::string Link::read_line() {
-  auto line = read_pipe_line(in_);
-  if (!line) throw std::runtime_error("the launching process is gone");
-  return std::move(*line);
+/// nullopt on stop.
+std::optional<std::string> Link::read_line() {
+  auto line = read_pipe_line(in_, stop_);
+  if (!line && !stop_) throw std::runtime_error("the launching process is gone");
+  return line;
 }
 
 void Link::write_line(const std::string& line) {

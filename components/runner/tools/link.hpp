@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -16,20 +17,22 @@ namespace panvo::runner {
 /// "await NAME READERS WRITERS", "connect", then "start".
 class Link {
  public:
-  Link(int in, int out) : in_(in), out_(out) {}
+  Link(int in, int out, const std::atomic<bool>& stop) : in_(in), out_(out), stop_(stop) {}
 
-  /// Returns when all containers of the system are connected. Throws std::runtime_error if the launcher is gone.
+  /// Returns when all containers of the system are connected, or on `stop`. Throws std::runtime_error if the launcher
+  /// is gone.
   void meet(runtime::Container& container, const runtime::Logger::Write& log);
 
  private:
-  std::string read_line();
+  std::optional<std::string> read_line();
   void write_line(const std::string& line);
 
   int in_, out_;
+  const std::atomic<bool>& stop_;
 };
 
-/// Reads a line from a pipe; nullopt at its end.
-std::optional<std::string> read_pipe_line(int pipe);
+/// Reads a line from a pipe; nullopt at its end, or on `stop`.
+std::optional<std::string> read_pipe_line(int pipe, const std::atomic<bool>& stop);
 /// Writes a line to a pipe; false if the reader is gone.
 bool write_pipe_line(int pipe, const std::string& line);
 

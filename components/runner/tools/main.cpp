@@ -33,10 +33,12 @@ ExitStatus run(const RunOptions& options) {
     return ExitStatus::kOk;
   }
   const bool is_launched = options.link_in.has_value();
-  if (!options.out.empty() && !is_launched) claim_run_folder(options.out, options.overwrite);
   const bool respawns = std::ranges::any_of(system.containers, &runtime::ContainerDescription::respawn);
-  if (!is_launched && !options.replay && (system.containers.size() > 1 || respawns || options.respawn))
-    return launch(options, system);
+  const bool is_split = !is_launched && !options.replay && system.containers.size() > 1;
+  if (is_split && !options.awaited.empty())
+    throw runtime::ConfigError("--await: waits for peers of one container; name it with --container");
+  if (!options.out.empty() && !is_launched) claim_run_folder(options.out, options.overwrite);
+  if (is_split || (!is_launched && !options.replay && (respawns || options.respawn))) return launch(options, system);
   runtime::ContainerDescription together = system.containers.front();  // replay runs in one process
   std::vector<runtime::ComponentDescription>& all = together.components;
   all.clear();

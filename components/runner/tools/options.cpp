@@ -105,7 +105,10 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
       ->expected(1)
       ->take_all();
   app.add_flag("--ros-args")->group("");  // in front of -p and -r, as ROS 2 needs it
-  app.add_option("--seed", options.seed, "seed of all random numbers")->capture_default_str();
+  app.add_option(
+         "--seed", options.seed,
+         "seed that components get from Context::seed(); the components of panvo have seed parameters of their own")
+      ->capture_default_str();
   app.add_option("--domain", options.dds.domain, "DDS domain; overrides ROS_DOMAIN_ID")
       ->check(CLI::Range(0, runtime::DdsSettings::kMaxDomain))
       ->capture_default_str();

@@ -12,9 +12,16 @@
 
 namespace panvo::runner {
 
-enum class ExitStatus : int { kOk = 0, kRunFailed = 1, kBadConfiguration = 2, kInterrupted = 130, kTerminated = 143 };
+enum class ExitStatus : int {
+  kOk = 0,
+  kRunFailed = 1,
+  kBadConfiguration = 2,
+  kHungUp = 129,
+  kInterrupted = 130,
+  kTerminated = 143
+};
 
-/// Exit status of a run ended by SIGINT or SIGTERM before the end of the data.
+/// Exit status of a run ended by SIGINT, SIGTERM or SIGHUP before the end of the data.
 constexpr ExitStatus interrupted_by(int signal) { return static_cast<ExitStatus>(128 + signal); }
 
 /// Options of `panvo run`.

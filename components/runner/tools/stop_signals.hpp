@@ -6,7 +6,7 @@
 
 namespace panvo::runner {
 
-/// Calls `request_stop` on its own thread after SIGINT or SIGTERM. A second signal, or a stop that takes longer than
+/// Calls `request_stop` on its own thread after SIGINT, SIGTERM, or SIGHUP of a terminal that closes. A second signal, or a stop that takes longer than
 /// `kLimit_s`, ends the process immediately, so a shutdown never hangs. Create it before any other thread, as threads
 /// inherit the signal mask.
 class StopSignals {

@@ -32,17 +32,20 @@ TopicDescription Channel::with(const interfaces::Qos& qos) const {
 
 void Channel::add_publisher(const void* owner, const std::string& owner_name,
                             const std::optional<interfaces::Qos>& qos) {
-  const std::unique_lock lock(mutex_);
+  const std::lock_guard writer_lock(bridge_writer_mutex_);
   const interfaces::Qos wanted = qos.value_or(topic_.qos);
   if (!publishers_.empty() && offered_ != wanted) {
     throw ConfigError("topic " + topic_.name + " is also published by " + publishers_.begin()->second +
                       " in this container, with another quality of service: set the same qos_overrides." + topic_.name +
                       ".publisher parameters for both");
   }
+  std::unique_ptr<BridgeWriter> opened;
+  if (bridge_ && !writer_) opened = bridge_->open_writer(with(wanted));
+  const std::unique_lock lock(mutex_);
   offered_ = wanted;
   publishers_[owner] = owner_name;
-  if (!bridge_ || writer_) return;
-  writer_ = bridge_->open_writer(with(offered_));
+  if (!opened) return;
+  writer_ = std::move(opened);
   const std::lock_guard sending_lock(sending_mutex_);
   sent_ = 0;
   has_sent_all_ = false;
@@ -50,7 +53,8 @@ void Channel::add_publisher(const void* owner, const std::string& owner_name,
 
 void Channel::remove_publisher(const void* owner) {
   send_history();
-  std::unique_ptr<BridgeWriter> closed;
+  const std::lock_guard writer_lock(bridge_writer_mutex_);
+  std::unique_ptr<BridgeWriter> closed;  // after mutex_ is released
   const std::unique_lock lock(mutex_);
   publishers_.erase(owner);
   if (!publishers_.empty()) return;
@@ -86,28 +90,36 @@ bool Channel::has_observers() const {
   return !observers_.empty();
 }
 
-void Channel::agree_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants) {
+bool Channel::has_readers_of_valid() const {
+  return std::ranges::any_of(readers_, [](const Member& member) { return member.wants == Wants::kValid; });
+}
+
+/// What is to be requested with a further reader.
+interfaces::Qos Channel::agreed_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants) const {
   const interfaces::Qos wanted = qos.value_or(topic_.qos);
-  if (readers_.empty()) {
-    requested_ = wanted;
-  } else if (wants == Wants::kValid &&
-             (requested_.requested != wanted.requested || requested_.durability != wanted.durability)) {
+  if (readers_.empty()) return wanted;
+  const bool is_same = requested_.requested == wanted.requested && requested_.durability == wanted.durability;
+  if (is_same || wants == Wants::kAll) return requested_;
+  if (has_readers_of_valid()) {
     throw ConfigError("topic " + topic_.name +
                       " is also read by another component of this container, with another reliability or durability: "
                       "set the same qos_overrides." +
                       topic_.name + ".subscription parameters for both");
   }
+  return wanted;
 }
 
 void Channel::add_reader(const void* owner, Reader reader, Wants wants, const std::optional<interfaces::Qos>& qos) {
+  const std::lock_guard reader_lock(bridge_reader_mutex_);
+  const interfaces::Qos agreed = agreed_on_reading(qos, wants);
+  if (agreed != requested_) close_bridge_reader();
   {
     const std::unique_lock lock(mutex_);
-    agree_on_reading(qos, wants);
+    requested_ = agreed;
     const Member member{owner, std::move(reader), wants};
     if (!qos || qos->durability != Durability::kVolatile) pass_history_to(member);
     readers_.push_back(member);
   }
-  const std::lock_guard lock(bridge_reader_mutex_);
   if (bridge_ && !bridge_reader_)
     bridge_reader_ = bridge_->open_reader(with(requested_),
                                           [this](const SamplePtr& sample) { deliver(sample, check(sample), false); });
@@ -122,14 +134,18 @@ void Channel::pass_history_to(const Member& member) {
 }
 
 void Channel::remove_reader(const void* owner) {
-  bool last = false;
+  const std::lock_guard reader_lock(bridge_reader_mutex_);
   {
     const std::unique_lock lock(mutex_);
     std::erase_if(readers_, [&](const auto& entry) { return entry.owner == owner; });
-    last = readers_.empty();
   }
-  const std::lock_guard lock(bridge_reader_mutex_);
-  if (last) bridge_reader_.reset();
+  if (readers_.empty()) close_bridge_reader();
+}
+
+/// Forgets what it received: those writers that still exist send their latched messages again to the next one.
+void Channel::close_bridge_reader() {
+  bridge_reader_.reset();
+  history_.forget_those_of_others();
 }
 
 void Channel::add_observer(Reader observer) {
@@ -188,7 +204,7 @@ bool Channel::is_to_be_checked(const Sample& sample) const {
   if (!topic_.type) return false;
   if (sample.received_size() == 0) return true;
   const std::shared_lock lock(mutex_);
-  return std::ranges::any_of(readers_, [](const Member& member) { return member.wants == Wants::kValid; });
+  return has_readers_of_valid();
 }
 
 Channel::Verdict Channel::check(const SamplePtr& sample) {

@@ -50,7 +50,8 @@ class Channel {
 
   /// Passes latched messages and then all further messages to `reader`, until remove_reader() returns. `qos`: overrides
   /// that of the topic. Throws ConfigError if another reader of this process requests another reliability or
-  /// durability; a reader of all messages takes what there is.
+  /// durability. A reader of all messages takes what the others request, so it may get latched messages of other
+  /// processes again when the first of them comes.
   void add_reader(const void* owner, Reader reader, Wants wants = Wants::kValid,
                   const std::optional<interfaces::Qos>& qos = std::nullopt);
   void remove_reader(const void* owner);
@@ -87,7 +88,9 @@ class Channel {
   void deliver(const SamplePtr& sample, Verdict verdict, bool is_from_here);
   std::string shown_sender(const std::string& sender) const;
   TopicDescription with(const interfaces::Qos& qos) const;
-  void agree_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants);
+  bool has_readers_of_valid() const;
+  interfaces::Qos agreed_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants) const;
+  void close_bridge_reader();
   void pass_history_to(const Member& reader);
   bool sends_history() const;
   bool send_next();
@@ -101,6 +104,12 @@ class Channel {
   std::mutex untold_mutex_;
   std::vector<RejectedMessages::Cause> untold_;
 
+  // Held while publishers and readers, respectively, are added or removed, and locked before mutex_. The bridge's
+  // writer and reader are opened and closed under these alone, never under mutex_: Fast DDS then waits for its
+  // receiving threads, which hold its locks while they deliver.
+  std::mutex bridge_writer_mutex_;
+  mutable std::mutex bridge_reader_mutex_;
+
   mutable std::shared_mutex mutex_;  // shared: delivery; exclusive: changes of publishers and readers
   std::map<const void*, std::string> publishers_;
   std::vector<Member> readers_;
@@ -113,10 +122,7 @@ class Channel {
   bool has_sent_all_ = false;  // new messages follow at once
   std::atomic<std::uint64_t> published_ = 0, not_sent_ = 0;
 
-  // Opened with the first reader, closed after the last. Never under mutex_: closing waits for a callback that may be
-  // delivering.
-  mutable std::mutex bridge_reader_mutex_;
-  std::unique_ptr<BridgeReader> bridge_reader_;
+  std::unique_ptr<BridgeReader> bridge_reader_;  // opened with the first reader, closed after the last
 };
 
 }  // namespace panvo::runtime

@@ -85,13 +85,13 @@ class Container::Implementation final : public node_services::ControlledContaine
   void drain();
   bool queues_are_empty();
   void fail_source(const std::string& what);
-  bool have_all_failed() const;
   std::vector<std::string> end_components();
   void end(Context::State& state);
   void finalize(std::uint64_t id);
 
   void component_failed(const ComponentDescription& description);
   void restart_failed();
+  bool are_all_lost();
   Entries take_failed(std::int64_t now_ns);
   void plan_restart(Recipe& recipe, std::int64_t now_ns);
   void make_anew(Recipe recipe, std::int64_t now_ns);

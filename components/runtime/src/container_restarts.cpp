@@ -2,6 +2,7 @@
 // Restarting of components that throw in a live run.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "clocks.hpp"
@@ -12,6 +13,12 @@ namespace panvo::runtime {
 namespace {
 
 std::string name_of(const Recipe& recipe) { return recipe.description.name; }
+
+/// Whether a failure is followed by a restart. A source has lost its position. A recorder (`taps`) has lost messages,
+/// which is a problem of the run, and must not begin its bag anew.
+bool is_restartable(const Context::State& state) {
+  return state.description.on_error == OnError::kRestart && !state.finalized && !state.source && !state.taps;
+}
 
 }  // namespace
 
@@ -45,8 +52,7 @@ auto Container::Implementation::take_failed(std::int64_t now_ns) -> Entries {
   for (auto& entry : entries_) {
     auto& state = entry->context->state();
     state.trust_files(now_ns);
-    // A source is not restarted: it has lost its position.
-    if (!state.failed() || state.finalized || state.description.on_error != OnError::kRestart || state.source) continue;
+    if (!state.failed() || !is_restartable(state)) continue;
     auto& recipe = entry->recipe;
     if (!recipe.restart_ns && !recipe.given_up) plan_restart(recipe, now_ns);
     if (recipe.restart_ns && *recipe.restart_ns <= now_ns) due.push_back(std::move(entry));
@@ -55,12 +61,23 @@ auto Container::Implementation::take_failed(std::int64_t now_ns) -> Entries {
   return due;
 }
 
+/// Whether all components have failed for good. False during a change: a component that is being restarted is in
+/// neither list.
+bool Container::Implementation::are_all_lost() {
+  const std::unique_lock change(change_mutex_, std::try_to_lock);
+  if (!change || (entries_.empty() && unmade_.empty())) return false;
+  return std::ranges::all_of(unmade_, &Recipe::given_up) && std::ranges::all_of(entries_, [](const auto& entry) {
+           const auto& state = entry->context->state();
+           return state.failed() && (entry->recipe.given_up || !is_restartable(state));
+         });
+}
+
 void Container::Implementation::plan_restart(Recipe& recipe, std::int64_t now_ns) {
   recipe.restart_ns = recipe.restarts.failed(now_ns);
   recipe.given_up = !recipe.restart_ns;
   if (recipe.given_up) {
     log(LogLevel::kError, name_of(recipe),
-        fmt::format("failed {} times within {} s and stays stopped; the other components continue",
+        fmt::format("failed {} times within {} s and stays stopped; any others continue",
                     RestartPlan::kMaxWithinWindow + 1, RestartPlan::kWindow_ns / 1'000'000'000));
   } else {
     log(LogLevel::kWarning, name_of(recipe),
@@ -71,15 +88,18 @@ void Container::Implementation::plan_restart(Recipe& recipe, std::int64_t now_ns
 void Container::Implementation::make_anew(Recipe recipe, std::int64_t now_ns) {
   recipe.restart_ns.reset();
   ++recipe.restarted;
+  std::vector<std::string> problems;
   try {
     put(recipe);
-    log(LogLevel::kInfo, name_of(recipe), "restarted");
+    return log(LogLevel::kInfo, name_of(recipe), "restarted");
   } catch (const ConfigError& error) {
-    for (const auto& problem : error.problems())
-      log(LogLevel::kError, name_of(recipe), "could not be restarted: " + problem);
-    plan_restart(recipe, now_ns);
-    unmade_.push_back(std::move(recipe));
+    problems = error.problems();
+  } catch (const std::exception& error) {  // e.g. the system has no thread for it
+    problems.emplace_back(error.what());
   }
+  for (const auto& problem : problems) log(LogLevel::kError, name_of(recipe), "could not be restarted: " + problem);
+  plan_restart(recipe, now_ns);
+  unmade_.push_back(std::move(recipe));
 }
 
 }  // namespace panvo::runtime

@@ -39,6 +39,7 @@ std::vector<std::string> Container::Implementation::run() {
     run_live(sources);
   }
   running_ = false;
+  stop_housekeeping();  // nothing is restarted from now on: it would have no end
   std::vector<std::string> problems = source_problems_;
   for (auto& problem : end_components()) problems.push_back(std::move(problem));
   const std::lock_guard change(change_mutex_);
@@ -79,12 +80,6 @@ void Container::Implementation::finalize(std::uint64_t id) {
   if (found == entries_.end()) return;
   end((*found)->context->state());
   tell_nodes();
-}
-
-bool Container::Implementation::have_all_failed() const {
-  const std::lock_guard lock(entries_mutex_);
-  return !entries_.empty() &&
-         std::ranges::all_of(entries_, [](const auto& entry) { return entry->context->state().failed(); });
 }
 
 void Container::Implementation::request_stop() noexcept {
@@ -158,7 +153,7 @@ void Container::Implementation::run_live(const std::vector<Source*>& sources) {
   runner_->start();
   if (sources.empty()) {
     std::unique_lock lock(stop_mutex_);
-    while (!stop_requested_ && !have_all_failed()) stop_changed_.wait_for(lock, std::chrono::milliseconds(100));
+    while (!stop_requested_ && !are_all_lost()) stop_changed_.wait_for(lock, std::chrono::milliseconds(100));
   }
   while (!sources.empty() && !stop_requested_ && !runner_->wait(250)) on_progress(runner_->progress());
   was_interrupted_ = !sources.empty() && runner_->is_playing();

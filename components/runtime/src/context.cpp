@@ -264,6 +264,7 @@ void Context::tap(std::function<bool(const TopicDescription&)> wanted, std::size
   Worker& worker = state_->main_worker();
   Port& port = worker.add_port("tap", depth, false,
                                [callback = std::move(callback)](Task& task) { callback(*task.topic, task.first); });
+  port.completes = true;  // a recorder accounts for all messages
   state_->taps = true;
   state_->host.bus.tap(state_.get(), std::move(wanted),
                        [state = state_.get(), &worker, &port](const TopicDescription& topic, const SamplePtr& sample) {

@@ -19,6 +19,15 @@ void add(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
   status.values().push_back(entry);
 }
 
+/// Those of Context::on_diagnostics. Its exceptions are told, as they would end the process on this thread.
+DiagnosticValues own_values(const Context::State& component) {
+  try {
+    return component.diagnose();
+  } catch (const std::exception& error) {
+    return {{"own values", fmt::format("not available: {}", error.what())}};
+  }
+}
+
 }  // namespace
 
 diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<const Context::State*>& components,
@@ -41,7 +50,7 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
           fmt::format("mean {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms, CPU mean {:.2f} ms", times.wall.mean_ms(),
                       times.wall.quantile_ms(0.95), times.wall.max_ms(), times.cpu.mean_ms()));
     }
-    for (const auto& [key, value] : component->diagnose()) add(status, key, value);
+    for (const auto& [key, value] : own_values(*component)) add(status, key, value);
     if (component->restarts > 0) add(status, "restarted", fmt::format("{} times, after an error", component->restarts));
     const auto set_aside = component->files_set_aside();
     for (const auto& text : set_aside) add(status, "file", text);

@@ -65,6 +65,11 @@ void LatchedHistory::forget_those_from_here() {
   std::erase_if(entries_, [](const Entry& entry) { return entry.is_from_here; });
 }
 
+void LatchedHistory::forget_those_of_others() {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(entries_, [](const Entry& entry) { return !entry.is_from_here; });
+}
+
 bool LatchedHistory::is_old(const Entry& entry) const {
   return lifespan_ns_ > 0 && clock_() - entry.since_ns > lifespan_ns_;
 }

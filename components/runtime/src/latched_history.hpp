@@ -43,6 +43,7 @@ class LatchedHistory {
   std::vector<Entry> after(std::uint64_t number, std::size_t count) const;
 
   void forget_those_from_here();
+  void forget_those_of_others();
 
  private:
   SamplePtr store(const SamplePtr& sample);

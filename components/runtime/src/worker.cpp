@@ -136,16 +136,22 @@ void Worker::stop() {
   }
   work_or_stop_.notify_all();
   room_or_stop_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  const bool has_run = thread_.joinable();  // else the component may not even have been constructed
+  if (has_run) thread_.join();
   if (replay_) replay_->forget(*this);
-  std::deque<std::pair<Port*, Task>> discarded;  // destroyed outside the lock, as this may free much memory
-  const std::lock_guard lock(mutex_);
-  for (const auto& entry : tasks_) {
-    ++entry.first->dropped;
-    entry.first->waiting = 0;
-    --*hooks_.in_flight;
+  std::deque<std::pair<Port*, Task>> left;  // destroyed outside the lock, as this may free much memory
+  {
+    const std::lock_guard lock(mutex_);
+    left.swap(tasks_);
+    for (const auto& [port, task] : left) {
+      if (!has_run || !port->completes) ++port->dropped;
+      port->waiting = 0;
+      --*hooks_.in_flight;
+    }
   }
-  discarded.swap(tasks_);
+  for (auto& [port, task] : left) {
+    if (has_run && port->completes) run(*port, task);
+  }
 }
 
 void Worker::loop() {

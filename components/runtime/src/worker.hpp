@@ -39,6 +39,7 @@ struct Port {
   std::size_t depth = 1;  // the newest `depth` tasks are kept
   bool waits = false;     // push() blocks when full instead of dropping the oldest
   std::function<void(Task&)> run;
+  bool completes = false;  // live, stop() handles its waiting tasks
 
   // Guarded by the worker's mutex.
   std::size_t waiting = 0;
@@ -104,7 +105,8 @@ class Worker {
 
   /// `gives_way`: runs at low priority.
   void start(bool gives_way = false);
-  /// Ends the thread after the current task and discards waiting tasks. Unblocks waiting push() calls.
+  /// Ends the thread after the current task and discards waiting tasks, except those of ports that complete: the caller
+  /// handles them. Unblocks waiting push() calls.
   void stop();
   /// Replay: runs the oldest task.
   void run_one();

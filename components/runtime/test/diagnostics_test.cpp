@@ -184,6 +184,13 @@ TEST_F(Diagnosed, IsInErrorOnceItHasStopped) {
   EXPECT_EQ(collect(1.0).level(), 2);
 }
 
+TEST_F(Diagnosed, TellsThatItsOwnValuesCannotBeHad) {
+  state.diagnose = []() -> DiagnosticValues { throw std::runtime_error("the camera is silent"); };
+  const auto status = collect(1.0);
+  EXPECT_EQ(value(status, "own values"), "not available: the camera is silent");
+  EXPECT_EQ(status.level(), 0);
+}
+
 TEST_F(Diagnosed, CountsAnewWhenAComponentHasTakenAnothersPlace) {
   handle(state.main_worker().add_port("image", 5, false, [](Task&) {}), 10);
   collect(1.0);

@@ -22,12 +22,12 @@ class Asked {
   std::promise<std::optional<Bytes>> answer_;
 };
 
-const int kFirst = 0, kSecond = 0;  // owners
+const int kOneOwner = 0, kOtherOwner = 0;  // owners
 
 TEST(RequestThread, AnswersInOrder) {
   RequestThread thread;
   Bytes seen;
-  const auto serve = thread.serve(&kFirst, [&](const Bytes& request) {
+  const auto serve = thread.serve(&kOneOwner, [&](const Bytes& request) {
     seen.push_back(request.at(0));
     return seen;
   });
@@ -40,7 +40,8 @@ TEST(RequestThread, AnswersInOrder) {
 
 TEST(RequestThread, LeavesMalformedRequestsUnanswered) {
   RequestThread thread;
-  const auto serve = thread.serve(&kFirst, [](const Bytes&) -> Bytes { throw interfaces::DecodeError("malformed"); });
+  const auto serve =
+      thread.serve(&kOneOwner, [](const Bytes&) -> Bytes { throw interfaces::DecodeError("malformed"); });
   Asked asked;
   serve({1}, asked.reply());
   EXPECT_EQ(asked.answer(), std::nullopt);
@@ -49,23 +50,23 @@ TEST(RequestThread, LeavesMalformedRequestsUnanswered) {
 TEST(RequestThread, ForgetsTheRequestsOfAnOwnerThatIsRemoved) {
   RequestThread thread;
   std::promise<void> go_on;
-  const auto slow = thread.serve(&kFirst, [&](const Bytes& request) {
+  const auto slow = thread.serve(&kOneOwner, [&](const Bytes& request) {
     go_on.get_future().wait();
     return request;
   });
   bool is_called = false;
-  const auto removed = thread.serve(&kSecond, [&](const Bytes& request) {
+  const auto removed = thread.serve(&kOtherOwner, [&](const Bytes& request) {
     is_called = true;
     return request;
   });
   Asked first, second;
   slow({1}, first.reply());
   removed({2}, second.reply());
-  thread.remove_of(&kSecond);  // while the other owner's is being answered
+  thread.remove_of(&kOtherOwner);  // while the other owner's is being answered
   EXPECT_EQ(second.answer(), std::nullopt);
   go_on.set_value();
   EXPECT_EQ(first.answer(), Bytes({1}));
-  thread.remove_of(&kFirst);
+  thread.remove_of(&kOneOwner);
   EXPECT_FALSE(is_called);
 }
 

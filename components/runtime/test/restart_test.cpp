@@ -2,11 +2,13 @@
 // Components that throw in a live run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <condition_variable>
 #include <future>
 #include <mutex>
+#include <optional>
 
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/testing.hpp"
@@ -39,6 +41,7 @@ struct FragileRecord {
   int made = 0, handled = 0;
   bool fails_again = false, cannot_be_made_anew = false;
   bool is_again = false;  // is_again() of the last instance
+  std::function<void(int)> on_made = [](int) {};
 
   bool reaches(const std::function<bool(const FragileRecord&)>& wanted) {
     std::unique_lock lock(mutex);
@@ -52,6 +55,7 @@ class Fragile final : public Component {
   Fragile(Context& context, FragileRecord& record) : record_(record) {
     const std::lock_guard lock(record.mutex);
     is_to_fail_ = ++record.made == 1 || record.fails_again;
+    record.on_made(record.made);
     record.is_again = context.is_again();
     record.changed.notify_all();
     if (record.made > 1 && record.cannot_be_made_anew) throw ConfigError("the camera is gone");
@@ -70,11 +74,17 @@ class Fragile final : public Component {
 
 class Restart : public testing::Test {
  protected:
-  void add(OnError on_error) {
+  void TearDown() override { container.request_stop(); }  // also after a failed assertion
+
+  void add_fragile(const std::string& name, OnError on_error, FragileRecord& its_record) {
     ComponentDescription description;
-    description.name = "fragile";
+    description.name = name;
     description.on_error = on_error;
-    container.add(description, [this](Context& context) { return std::make_unique<Fragile>(context, record); });
+    container.add(description, [&](Context& context) { return std::make_unique<Fragile>(context, its_record); });
+  }
+  void add(OnError on_error) {
+    add_fragile("fragile", on_error, record);
+    ComponentDescription description;
     description.name = "writer";
     container.add(description, [this](Context& context) {
       const auto& type = interfaces::message_type<Image>();
@@ -84,6 +94,7 @@ class Restart : public testing::Test {
     finished = std::async(std::launch::async, [this] { return container.run(); });
   }
   void publish() { output->publish(std::make_shared<const Image>(one_pixel())); }
+  void unload_all_but_the_fragile() { ASSERT_TRUE(container.unload("writer")); }  // it can still publish
   std::vector<std::string> end() {
     container.request_stop();
     auto problems = finished.get();
@@ -91,16 +102,19 @@ class Restart : public testing::Test {
     return problems;
   }
   bool is_logged(const std::string& text) {
-    const std::lock_guard lock(log_mutex);
-    return std::ranges::any_of(log, [&](const auto& line) { return line.find(text) != std::string::npos; });
+    std::unique_lock lock(log_mutex);
+    const auto has_text = [&](const auto& line) { return line.find(text) != std::string::npos; };
+    return logged.wait_for(lock, std::chrono::seconds(60), [&] { return std::ranges::any_of(log, has_text); });
   }
 
   FragileRecord record;
   std::mutex log_mutex;
+  std::condition_variable logged;
   std::vector<std::string> log;
   Container container{{.log = [this](LogLevel, const std::string&, const std::string& text) {
     const std::lock_guard lock(log_mutex);
     log.push_back(text);
+    logged.notify_all();
   }}};
   std::shared_ptr<UntypedOutput> output;
   std::future<std::vector<std::string>> finished;
@@ -123,6 +137,73 @@ TEST_F(Restart, OneThatCannotBeMadeAnewIsTriedAgainAndReported) {
   ASSERT_TRUE(record.reaches([](const FragileRecord& now) { return now.made >= 3; }));
   EXPECT_THAT(end(), ElementsAre("fragile stopped by an error and could not be restarted, see the log"));
   EXPECT_TRUE(is_logged("the camera is gone"));
+}
+
+TEST_F(Restart, TheOnlyComponentOfAContainerIsMadeAnewToo) {
+  add(OnError::kRestart);
+  unload_all_but_the_fragile();
+  publish();
+  ASSERT_TRUE(record.reaches([](const FragileRecord& now) { return now.handled == 1; }));
+  EXPECT_THAT(end(), IsEmpty());
+}
+
+TEST_F(Restart, ARunEndsOnceNoComponentWillBeMadeAnew) {  // takes the 11 s until a component is given up
+  record.cannot_be_made_anew = true;
+  FragileRecord hopeless;
+  hopeless.fails_again = true;
+  add_fragile("hopeless", OnError::kRestart, hopeless);
+  add(OnError::kRestart);
+  unload_all_but_the_fragile();
+  publish();
+  ASSERT_EQ(finished.wait_for(std::chrono::seconds(60)), std::future_status::ready);
+  EXPECT_THAT(end(), ElementsAre("fragile stopped by an error and could not be restarted, see the log",
+                                 "hopeless stopped by an error, see the log"));
+  EXPECT_EQ(record.made, 4);
+  EXPECT_EQ(hopeless.made, 4);
+}
+
+/// While it exists, no thread can be started: its stack would be larger than the address space.
+class NoMoreThreads {
+ public:
+  NoMoreThreads() {
+    pthread_getattr_default_np(&before_);
+    pthread_attr_t huge;
+    pthread_getattr_default_np(&huge);
+    pthread_attr_setstacksize(&huge, std::size_t{1} << 60);
+    pthread_setattr_default_np(&huge);
+    pthread_attr_destroy(&huge);
+  }
+  ~NoMoreThreads() {
+    pthread_setattr_default_np(&before_);
+    pthread_attr_destroy(&before_);
+  }
+  NoMoreThreads(const NoMoreThreads&) = delete;
+  NoMoreThreads& operator=(const NoMoreThreads&) = delete;
+
+ private:
+  pthread_attr_t before_{};
+};
+
+TEST_F(Restart, OneThatGetsNoThreadIsTriedAgain) {
+  std::optional<NoMoreThreads> no_more_threads;
+  record.on_made = [&](int made) { made == 2 ? void(no_more_threads.emplace()) : no_more_threads.reset(); };
+  add(OnError::kRestart);
+  publish();
+  ASSERT_TRUE(record.reaches([](const FragileRecord& now) { return now.handled == 1; }));
+  EXPECT_EQ(record.made, 3);
+  EXPECT_TRUE(is_logged("could not be restarted: Resource temporarily unavailable"));
+  EXPECT_THAT(end(), IsEmpty());
+}
+
+TEST_F(Restart, NoneIsMadeAnewOnceTheRunHasEnded) {
+  record.fails_again = true;
+  add(OnError::kRestart);
+  publish();
+  ASSERT_TRUE(is_logged("restarting in 0.1 s"));
+  end();
+  std::unique_lock lock(record.mutex);
+  const int made = record.made;
+  EXPECT_FALSE(record.changed.wait_for(lock, std::chrono::seconds(1), [&] { return record.made > made; }));
 }
 
 TEST_F(Restart, AContainerStopsWhereItsComponentSaysSo) {

@@ -110,6 +110,38 @@ TEST(Worker, ReleasesWhoeverWaitsForRoomWhenItStops) {
   EXPECT_EQ(busy.in_flight, 0);
 }
 
+TEST(Worker, HandlesWhatWaitsAtItsEndIfThePortIsToComplete) {
+  BusyWorker busy;
+  std::vector<std::int64_t> handled;
+  Port& tap = busy.worker.add_port("tap", 9, false, [&](Task& task) { handled.push_back(task.stamp_ns); });
+  tap.completes = true;
+  Port& stage = busy.worker.add_port("stage", 1, true, [](Task&) {});
+  busy.block();
+  for (int i = 1; i <= 3; ++i) busy.worker.push(tap, stamped(i));
+  busy.worker.push(stage, {});
+  auto waiting = std::async(std::launch::async, [&] { busy.worker.push(stage, {}); });
+  auto stopping = std::async(std::launch::async, [&] { busy.worker.stop(); });
+  waiting.get();  // so it is stopping
+  busy.release.set_value();
+  stopping.get();
+  EXPECT_EQ(handled, (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(busy.worker.counters().at(0).handled, 3U);
+  EXPECT_EQ(busy.worker.counters().at(0).dropped, 0U);
+  EXPECT_EQ(busy.worker.counters().at(1).dropped, 2U);
+  EXPECT_EQ(busy.in_flight, 0);
+}
+
+TEST(Worker, HandlesNothingThatCameBeforeAStartThatFailed) {
+  BusyWorker busy;
+  int handled = 0;
+  Port& tap = busy.worker.add_port("tap", 9, false, [&](Task&) { ++handled; });
+  tap.completes = true;
+  busy.worker.push(tap, {});
+  busy.worker.stop();
+  EXPECT_EQ(handled, 0);
+  EXPECT_EQ(busy.worker.counters().front().dropped, 1U);
+}
+
 TEST(Worker, IsEndedByWhatATaskThrowsAndSaysWhat) {
   BusyWorker busy;
   Port& port = busy.worker.add_port("in", 4, false, [](Task&) { throw std::runtime_error("matrix is singular"); });

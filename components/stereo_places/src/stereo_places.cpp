@@ -86,12 +86,13 @@ bool StereoPlaces::set_pose(const landmarks::LandmarkPose& pose) {
 bool StereoPlaces::is_due(std::int64_t stamp_ns, const Eigen::Isometry3d& odom_from_base, double way_m) const {
   if (!last_) return true;
   const auto& rule = parameters_.rule;
-  if (static_cast<double>(stamp_ns - last_->stamp_ns) < rule.step_s * 1e9) return false;
+  const bool is_set_back = stamp_ns < last_->stamp_ns;  // the clock: the time since the last view is unknown
+  if (!is_set_back && static_cast<double>(stamp_ns - last_->stamp_ns) < rule.step_s * 1e9) return false;
   return way_m - last_->way_m >= rule.step_m ||
          turn_between(last_->odom_from_base, odom_from_base) >= rule.step_deg * vision::kDegree;
 }
 
-ViewResult StereoPlaces::step(const StereoView& view) {
+ViewResult StereoPlaces::step(const StereoView& view, std::uint32_t next_id) {
   ViewResult result;
   result.match.stamp_ns = view.stamp_ns;
   if (const auto fault = vision::find_fault(view.left)) {
@@ -115,7 +116,7 @@ ViewResult StereoPlaces::step(const StereoView& view) {
   } else if (!run_.landmark(view.way_m)) {
     end_pass(result);
   }
-  if (!found.place && is_new_place(view)) build(view, keypoints, result);
+  if (!found.place && is_new_place(view)) build(view, next_id, keypoints, result);
   last_ = Compared{view.stamp_ns, view.odom_from_base, view.way_m, std::move(keypoints)};
   return result;
 }
@@ -201,7 +202,8 @@ bool StereoPlaces::is_new_place(const StereoView& view) const {
   });
 }
 
-void StereoPlaces::build(const StereoView& view, std::vector<Keypoint> keypoints, ViewResult& result) {
+void StereoPlaces::build(const StereoView& view, std::uint32_t next_id, std::vector<Keypoint> keypoints,
+                         ViewResult& result) {
   const vision::Stage stage(observer_, "build");
   const auto detected = keypoints.size();
   depths_.keep_measured(keypoints, view.left, view.right, offset_.px(), offset_.sigma_px());
@@ -216,7 +218,7 @@ void StereoPlaces::build(const StereoView& view, std::vector<Keypoint> keypoints
     return;
   }
   PanoramicLandmark landmark;
-  landmark.id = library_.next_id();
+  landmark.id = std::max(library_.next_id(), next_id);
   landmark.stamp_ns = view.stamp_ns;
   landmark.map_from_base = view.pose.map_from_base;
   landmark.covariance = view.pose.covariance;

@@ -22,6 +22,7 @@
 #include "panvo/position_corrector/match_messages.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/stereo_places/stereo_places.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 
 namespace panvo::stereo_places {
 
@@ -107,6 +108,8 @@ class StereoPlacesComponent final : public runtime::Component {
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     const auto read = landmarks::to_landmark(message, settings_);
     if (!read) {
+      // the others know it: to them, a new place of this id would be that landmark
+      last_skipped_id_ = std::max(last_skipped_id_, message.id());
       return context_.log().warn_throttled("landmark", "landmark {} {}; skipped", message.id(), read.reason());
     }
     early_.push_back(*read);
@@ -146,11 +149,16 @@ class StereoPlacesComponent final : public runtime::Component {
                                            pose.reason());
     }
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
-    if (!odometry_.empty() && stamp_ns <= odometry_.back().stamp_ns) return;
+    const auto order = stamps_.add(stamp_ns);
+    if (order == vision::StampOrder::kNotLater) return;
     double way_m = 0.0;
     if (!odometry_.empty()) {
       const auto& last = odometry_.back();
       way_m = last.way_m + (pose->translation() - last.odom_from_base.translation()).norm();
+    }
+    if (order == vision::StampOrder::kSetBack) {  // the path goes on, what has a stamp is of the time before
+      odometry_.clear();
+      waiting_.clear();
     }
     odometry_.push_back({stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()), way_m});
     if (odometry_.size() > kMaxOdometry) odometry_.pop_front();
@@ -195,7 +203,8 @@ class StereoPlacesComponent final : public runtime::Component {
                                                     : "the size is not that of camera_info");
     }
     publish(
-        places_->step({odometry.stamp_ns, *left, *right, odometry.odom_from_base, odometry.way_m, pose_of(odometry)}),
+        places_->step({odometry.stamp_ns, *left, *right, odometry.odom_from_base, odometry.way_m, pose_of(odometry)},
+                      std::max(map_.map().next_id(), last_skipped_id_ + 1)),
         pair.left->header().frame_id());
   }
 
@@ -256,6 +265,8 @@ class StereoPlacesComponent final : public runtime::Component {
   cv::Size size_;
   std::optional<StereoPlaces> places_;
   std::vector<landmarks::PanoramicLandmark> early_;
+  std::uint32_t last_skipped_id_ = 0;  // the largest one
+  vision::StampSequence stamps_;       // of the odometry
   std::deque<Odometry> odometry_;
   std::optional<Enhanced> enhanced_;
   std::deque<Pair> waiting_;

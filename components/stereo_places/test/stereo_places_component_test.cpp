@@ -131,6 +131,35 @@ TEST_F(StereoPlacesComponent, WaitsForTheOdometryOfAnImage) {
   EXPECT_EQ(matches[0]->header().frame_id(), "left");
 }
 
+TEST_F(StereoPlacesComponent, GoesOnIfTheClockIsSetBack) {
+  load();
+  publish_cameras();
+  stamp_ns = 1000'000'000'000;
+  drive(0.0, 4.0);
+  const auto built = landmarks.size();
+  stamp_ns += kPeriod_ns;
+  publish_images(4.5);  // its odometry does not come
+  stamp_ns -= 600'000'000'000;
+  const auto before = matches.size();
+  drive(5.0, 20.0);
+  EXPECT_EQ(matches.size(), before + 11U) << "as soon as that is certain";
+  EXPECT_EQ(conversions::stamp_ns(*matches.back()), stamp_ns);
+  EXPECT_GT(landmarks.size(), built);
+}
+
+TEST_F(StereoPlacesComponent, DropsOdometryThatIsLate) {
+  load();
+  publish_cameras();
+  stamp_ns = 1000'000'000'000;
+  for (int i = 0; i < 8; ++i) {
+    drive(i, i);
+    stamp_ns -= 600'000'000'000;
+    publish_odometry(70.0);
+    stamp_ns += 600'000'000'000;
+  }
+  EXPECT_EQ(matches.size(), 8U);
+}
+
 TEST_F(StereoPlacesComponent, SaysThatThereIsNoOdometry) {
   load();
   publish_cameras();
@@ -181,13 +210,30 @@ TEST_F(StereoPlacesComponent, RepeatsItselfBitForBit) {
 
 TEST_F(StereoPlacesComponent, LeavesOutLandmarksOfPanoramas) {
   load();
+  landmarks::PanoramicLandmark other;
+  other.id = 77;
+  other.description.histogram.assign(64, 1.0F / 64);
+  const auto settings = landmarks::description_settings(landmarks::DescriptionParameters{}, 1);
+  harness_->publish(topics::kLandmarks, landmarks::to_message(other, settings, "map"));
+  EXPECT_TRUE(harness_->log_contains("landmark 77 was described with other settings"));
   publish_cameras();
   drive(0.0, 0.0);
-  auto other = *landmarks.at(0);
-  other.id(77);
-  other.settings(landmarks::to_text(landmarks::description_settings(landmarks::DescriptionParameters{}, 1)));
-  harness_->publish(topics::kLandmarks, other);
-  EXPECT_TRUE(harness_->log_contains("landmark 77 was described with other settings"));
+  EXPECT_EQ(landmarks.back()->id(), 78U) << "to the localizer, a place of the same id would be landmark 77";
+  EXPECT_EQ(matches.back()->candidates(), 0U);
+}
+
+TEST_F(StereoPlacesComponent, NumbersPlacesAboveThoseOfWhichOnlyThePosesArrived) {
+  load();
+  panvo_msgs::msg::LandmarkPoses poses;
+  poses.header().frame_id("map");
+  poses.ids({41});
+  poses.poses().resize(1);
+  poses.poses()[0].pose().orientation().w(1.0);
+  harness_->publish(topics::kLandmarkPoses, poses);
+  publish_cameras();
+  drive(0.0, 0.0);
+  ASSERT_EQ(landmarks.size(), 1U);
+  EXPECT_EQ(landmarks[0]->id(), 42U);
 }
 
 TEST_F(StereoPlacesComponent, FollowsMovedLandmarks) {

@@ -38,6 +38,18 @@ TEST(PtpStamps, AreNotTrustedWhereTheHostFollowsAnotherClock) {
   EXPECT_THAT(hours.problem(), HasSubstr("phc2sys"));
 }
 
+TEST(PtpStamps, AreTheTimeOfArrivalUntilTheCameraHasFoundItsMaster) {
+  const std::int64_t host_ns = 1'700'000'000 * kSecond, way_ns = 20'000'000;
+  PtpStamps stamps;
+  EXPECT_EQ(stamps.to_host_ns(12 * kSecond, host_ns), host_ns) << "the camera counts from its start";
+  EXPECT_THAT(stamps.problem(), HasSubstr("phc2sys"));
+  const std::int64_t taken_ns = host_ns + kSecond;
+  EXPECT_EQ(stamps.to_host_ns(taken_ns + 37 * kSecond, taken_ns + way_ns), taken_ns);
+  EXPECT_EQ(stamps.problem(), "");
+  EXPECT_EQ(stamps.to_host_ns(taken_ns + 38 * kSecond, taken_ns + 2 * kSecond), taken_ns + kSecond) << "a busy host";
+  EXPECT_EQ(stamps.problem(), "");
+}
+
 TEST(SoftwareTrigger, IsDueOncePerPeriodAndTogetherWithOthers) {
   SoftwareTrigger one(20.0), other(20.0);
   int times = 0;

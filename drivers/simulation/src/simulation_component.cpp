@@ -47,7 +47,7 @@ struct ComponentParameters {
           0, 1000);
     field.path(&P::rig, "rig", "rig file, as config/rigs/paper/rig.yaml; empty: the paper's rig");
     field(&P::effects, "effects", "",
-          "difficulties: sudden_light, sun_drift, movers, weak_texture, rain, smear, dropped_frames, time_offset, all");
+          "effects: sudden_light, sun_drift, movers, weak_texture, rain, smear, dropped_frames, time_offset, all");
     field.path(&P::assets, "assets", "folder of photographs, MATERIAL.jpg, in place of painted textures");
     field(&P::cameras, "cameras", "", "cameras to render", {"all", "stereo", "panorama"});
     field(&P::seed, "seed", "1", "seed of the world, the motion and the noise", 0, 1'000'000'000);

@@ -95,10 +95,10 @@ void describe_options(CLI::App& app, Options& options) {
   app.add_flag("--overcast", s.day.overcast, "a closed layer of clouds, no shadows");
   app.add_flag("--wet", s.day.wet, "after rain: roads and pavements mirror, under clouds; not in snow");
   app.add_option("--day", s.day.seed,
-                 "another day on the same campus: so many days later, with other vibration, noise, traffic, clouds and "
-                 "parked cars")
+                 "another day on the same campus, this many days later, with other vibration, noise, traffic, clouds "
+                 "and parked cars")
       ->check(CLI::Range(1, 10000));
-  app.add_option("--left", s.day.left_m, "drive that far to the left of the lane's middle, m")
+  app.add_option("--left", s.day.left_m, "lateral offset from the middle of the lane, m; positive: left")
       ->check(CLI::Range(-1.0, 1.0))
       ->capture_default_str();
   app.add_option(

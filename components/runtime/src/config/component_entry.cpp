@@ -107,12 +107,17 @@ ComponentDescription read_component(YamlMap& map, const Scope& scope, OnError on
     }
     const auto from = read_topic(remap, "from", findings);
     const auto to = read_topic(remap, "to", findings);
-    if (!component.remaps.emplace(from, to).second) {
+    if (is_remapped(component.name_space, component.name, component.remaps, from)) {
       findings.problems.add(remap.where(), "topic " + from + " is remapped twice; keep one");
     }
+    component.remaps.emplace(from, to);
     remap.finish();
   }
-  component.remaps.insert(scope.remaps.begin(), scope.remaps.end());  // those of the component prevail
+  // Those of the component prevail; of the others, the last.
+  for (auto rule = scope.remaps.rbegin(); rule != scope.remaps.rend(); ++rule) {
+    if (!is_remapped(component.name_space, component.name, component.remaps, rule->first))
+      component.remaps.insert(*rule);
+  }
   map.finish({"extra_arg"});
   return component;
 }

@@ -49,6 +49,11 @@ std::string expand(std::string_view name_space, std::string_view node_name, std:
   return full_name(name_space, topic);
 }
 
+bool is_same_topic(std::string_view name_space, std::string_view node_name, std::string_view one,
+                   std::string_view other) {
+  return expand(name_space, node_name, one) == expand(name_space, node_name, other);
+}
+
 void check_topic(std::string_view topic) {
   if (const auto wrong = topic_name_problem(topic)) {
     throw ConfigError("topic name \"" + std::string(topic) + "\" " + *wrong);
@@ -131,6 +136,18 @@ std::string resolve_topic(std::string_view name_space, std::string_view node_nam
     }
   }
   return resolved;
+}
+
+bool is_remapped(std::string_view name_space, std::string_view node_name,
+                 const std::map<std::string, std::string>& remaps, std::string_view topic) {
+  return std::ranges::any_of(remaps,
+                             [&](const auto& rule) { return is_same_topic(name_space, node_name, rule.first, topic); });
+}
+
+void set_remap(std::string_view name_space, std::string_view node_name, std::map<std::string, std::string>& remaps,
+               const std::string& from, const std::string& to) {
+  std::erase_if(remaps, [&](const auto& rule) { return is_same_topic(name_space, node_name, rule.first, from); });
+  remaps[from] = to;
 }
 
 }  // namespace panvo::runtime

@@ -130,7 +130,9 @@ void apply_remap(SystemDescription& system, const std::string& rule) {
     }
     count = for_nodes(
         system, parts.node, [](const ContainerDescription&) {},
-        [&](ComponentDescription& component) { component.remaps[parts.name] = parts.value; });
+        [&](ComponentDescription& component) {
+          set_remap(component.name_space, component.name, component.remaps, parts.name, parts.value);
+        });
   }
   if (count == 0) refuse("-r", rule, system.file + " has no node " + parts.node);
   check_names(system, rule);

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace panvo::runtime {
 
@@ -14,7 +16,7 @@ struct Scope {
   std::filesystem::path file;
   std::string name_space = "/";
   std::map<std::string, std::string> variables{};
-  std::map<std::string, std::string> remaps{};  // of all components that follow
+  std::vector<std::pair<std::string, std::string>> remaps{};  // of all components that follow; the last prevail
 };
 
 /// A failed substitution, without its position in the file.

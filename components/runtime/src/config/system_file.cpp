@@ -124,7 +124,7 @@ class SystemReader {
       read_include(map, scope);
     } else if (name == "set_remap") {
       const auto from = read_topic(map, "from", findings_);
-      scope.remaps[from] = read_topic(map, "to", findings_);
+      scope.remaps.emplace_back(from, read_topic(map, "to", findings_));
       map.finish();
     } else {
       scope.name_space = read_name_space(map, scope, findings_);

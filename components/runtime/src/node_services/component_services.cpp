@@ -70,7 +70,7 @@ ComponentDescription requested_component(const LoadNode_Request& request, std::v
     if (topic_name_problem(from) || topic_name_problem(to)) {
       complain("remap rule \"" + rule + "\" is invalid; write from:=to with two topic names");
     } else {
-      description.remaps[from] = to;
+      set_remap(description.name_space, description.name, description.remaps, from, to);
     }
   }
   for (const auto& parameter : request.parameters()) {

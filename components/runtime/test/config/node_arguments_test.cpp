@@ -55,6 +55,20 @@ TEST_F(NodeArguments, RemapTopics) {
   EXPECT_EQ(components[1].remaps.size(), 1U);
 }
 
+TEST_F(NodeArguments, RemapTopicsThatTheFileWritesInAnotherForm) {
+  apply_remap(system, "stereo_rectifier:/robot/stereo/left/image_raw:=/zed/left");
+  apply_remap(system, "stereo_rectifier:~/status:=/first");
+  apply_remap(system, "stereo_rectifier:/robot/stereo_rectifier/status:=/second");
+  const auto& rectifier = system.containers[0].components[0];
+  const auto resolved = [&](const char* topic) {
+    return resolve_topic(rectifier.name_space, rectifier.name, rectifier.remaps, topic);
+  };
+  EXPECT_EQ(resolved("stereo/left/image_raw"), "/zed/left");
+  EXPECT_EQ(resolved("~/status"), "/second");
+  apply_remap(system, "stereo/left/image_raw:=/last");
+  EXPECT_EQ(resolved("stereo/left/image_raw"), "/last");
+}
+
 TEST_F(NodeArguments, SetParameters) {
   apply_parameter(system, "use_sim_time:=true");
   apply_parameter(system, "binocular_odometry:weights:=[3, 4.5]");

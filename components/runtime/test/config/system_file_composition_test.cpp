@@ -10,6 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Pair;
 
 TEST_F(SystemFile, SubstitutesEnvironmentFolderAndPackages) {
   setenv("PANVO_TEST_NAME", "from the environment", 1);
@@ -105,6 +106,33 @@ TEST_F(SystemFile, RemapsTopicsOfAllComponentsThatFollowToTheEndOfTheGroup) {
   EXPECT_EQ(system.containers[0].components[1].remaps.at("/tf"), "tf");
   EXPECT_EQ(system.containers[0].components[1].remaps.at("image"), "photo");
   EXPECT_TRUE(system.containers[1].components[0].remaps.empty());
+}
+
+TEST_F(SystemFile, RemapsATopicAsItsInnermostRuleSaysInWhateverForm) {
+  const auto system = read_system_file(folder_.write("stereo.yaml", R"(launch:
+- set_remap: {from: /scan, to: /of_all}
+- group:
+  - set_remap: {from: scan, to: /of_group}
+  - node_container:
+      name: a
+      composable_node:
+      - {pkg: p, plugin: P, name: one}
+      - {pkg: p, plugin: P, name: two, remap: [{from: scan, to: /own}]}
+      - {pkg: p, plugin: P, name: three, namespace: robot, remap: [{from: /robot/scan, to: /own}]}
+- node_container: {name: b, composable_node: [{pkg: p, plugin: P, name: four, remap: [{from: scan, to: /own}]}]}
+)"));
+  const auto& components = system.containers[0].components;
+  EXPECT_THAT(components[0].remaps, ElementsAre(Pair("scan", "/of_group")));
+  EXPECT_THAT(components[1].remaps, ElementsAre(Pair("scan", "/own")));
+  EXPECT_THAT(components[2].remaps, ElementsAre(Pair("/robot/scan", "/own"), Pair("/scan", "/of_all")));
+  EXPECT_THAT(system.containers[1].components[0].remaps, ElementsAre(Pair("scan", "/own")));
+}
+
+TEST_F(SystemFile, RefusesTwoRemapsOfOneTopicInWhateverForm) {
+  const char* twice = "stereo.yaml:7: topic /odometry/x is remapped twice; keep one";
+  EXPECT_THAT(problems(with("       remap: [{from: ~/x, to: a}, {from: /odometry/x, to: b}]")), ElementsAre(twice));
+  EXPECT_THAT(problems(with("       remap: [{from: /odometry/x, to: a}, {from: /odometry/x, to: a}]")),
+              ElementsAre(twice));
 }
 
 TEST_F(SystemFile, IncludesOthersWithArguments) {

@@ -77,6 +77,13 @@ TEST_F(ComponentServices, LoadWithNameNamespaceRemapsAndParameters) {
   EXPECT_EQ(description.parameters.at("scale").items, std::vector<std::string>{"0.5"});
 }
 
+TEST_F(ComponentServices, RemapATopicByTheLastRuleInWhateverForm) {
+  request.remap_rules({"/image:=/first", "image:=/last"});
+  EXPECT_TRUE(load().success());
+  const std::map<std::string, std::string> last{{"image", "/last"}};
+  EXPECT_EQ(container.descriptions.at(0).remaps, last);
+}
+
 TEST_F(ComponentServices, NameTheNodeByARemapRule) {
   request.node_name("left");
   request.remap_rules({"__node:=right", "image:=/camera/image", "__ns:=/robot"});

@@ -142,7 +142,7 @@ void add_param_commands(CLI::App& app, const SessionOptions& options) {
   };
   auto* list_command = add("list", "list the parameters of one or all nodes", list_parameters);
   list_command->add_option("NODE", arguments->node, "such as /binocular_odometry");
-  list_command->add_option("--prefix", arguments->prefixes, "only parameters below this prefix, such as tracker");
+  list_command->add_option("--prefix", arguments->prefixes, "only parameters below this prefix, such as tracking");
   auto* get_command = add("get", "print the value of a parameter", get);
   auto* set_command = add("set", "set a parameter, if its node allows it", set);
   for (auto* command : {get_command, set_command}) {

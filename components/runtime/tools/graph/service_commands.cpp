@@ -70,7 +70,7 @@ void add_service_commands(CLI::App& app, const SessionOptions& options) {
   auto* call_command = service->add_subcommand("call", "call a service and print its response");
   call_command->add_option("SERVICE", arguments->name, "such as /binocular_odometry/get_parameters")->required();
   call_command->add_option("TYPE", arguments->first, "such as rcl_interfaces/srv/GetParameters; may be left out");
-  call_command->add_option("REQUEST", arguments->second, "YAML, such as '{names: [tracker.max_features]}'");
+  call_command->add_option("REQUEST", arguments->second, "YAML, such as '{names: [tracking.max_features]}'");
   call_command->add_option("--type", arguments->type,
                            "such as rcl_interfaces/srv/GetParameters (default: the server's)");
   call_command->callback([&options, arguments] {

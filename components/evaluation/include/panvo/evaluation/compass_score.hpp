@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "panvo/evaluation/journey_recording.hpp"
@@ -18,8 +19,9 @@ struct CompassScore {
   double consistency = 0.0;  ///< mean of error^2 / variance; about 1 for a correct variance
   /// RMS error of the changes between consecutive panoramas: differences of two changes while the reference is kept.
   double step_rms_deg = 0.0;
-  /// RMS error of the accumulated changes over 50 panoramas.
-  double drift_rms_deg = 0.0;
+  /// RMS error of the accumulated changes over 50 panoramas without a gap between them; nullopt if there are none. A new
+  /// reference after failures leaves a gap: the turn up to it is not measured.
+  std::optional<double> drift_rms_deg;
   std::int64_t worst_ns = 0;  ///< stamp of the largest error
 };
 

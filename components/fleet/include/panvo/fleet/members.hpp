@@ -63,6 +63,7 @@ struct Member {
   std::optional<std::int64_t> asked_ns;
   int missed = 0;          ///< changes asked for again
   int contradictions = 0;  ///< contents unlike their digest, one after another
+  int overtaken = 0;       ///< announcements of less than was received, one after another
 };
 
 /// The other robots and replicas of their maps. Their messages may be lost, doubled, late, or wrong; what is unusable is
@@ -106,6 +107,7 @@ class Members {
   Member* known(const std::string& robot);
   void begin(const Announcement& said);
   void start_again(Member& member, const std::string& why);
+  bool is_overtaken(Member& member, const Announcement& said);
   void compare(Member& member, std::int64_t now_ns);
   std::optional<std::string> fault_of(const MapChanges& changes) const;
   void report_moves(const Member& member, const MapChanges& changes);

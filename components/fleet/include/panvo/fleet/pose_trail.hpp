@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "panvo/vision/pose.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 
 namespace panvo::fleet {
 
@@ -21,7 +22,8 @@ struct PoseSample {
 /// Recent poses, for panoramas that come earlier or later than the pose of their stamp.
 class PoseTrail {
  public:
-  /// `speed_m_per_s`: mean since the previous pose. A pose that is not later than the last one is ignored.
+  /// `speed_m_per_s`: mean since the previous pose. A pose that is not later than the last one is ignored. If the
+  /// clock was set back, only the path length goes on.
   void add(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_base, const vision::Matrix6d& covariance,
            double speed_m_per_s);
 
@@ -31,6 +33,8 @@ class PoseTrail {
 
  private:
   static constexpr std::size_t kMaxSamples = 250;  // 10 s at 25 Hz
+
+  vision::StampSequence stamps_;
   std::deque<PoseSample> samples_;
 };
 

@@ -37,7 +37,8 @@ class LandmarkLibrary {
 
   /// Adds a landmark and returns its id: its own, or the next free one if that is 0. Several may be at one place (see
   /// nearest). With a source, description, keypoints and thumbnail are dropped: the first two must be in the source. Throws
-  /// std::invalid_argument: the id is taken, the pose is not finite, or the description does not fit the limits.
+  /// std::invalid_argument: the id is taken or too high, the pose is not finite, or the description does not fit the
+  /// limits.
   std::uint32_t add(PanoramicLandmark landmark);
 
   /// Updates the pose of a landmark, e.g. after an optimisation; false if the id is unknown. Throws
@@ -72,7 +73,7 @@ class LandmarkLibrary {
 
   std::size_t size() const noexcept { return by_id_.size(); }
   bool empty() const noexcept { return by_id_.empty(); }
-  /// One more than the highest id.
+  /// One more than the highest id; never 0.
   std::uint32_t next_id() const noexcept { return by_id_.empty() ? 1 : by_id_.back()->id + 1; }
 
  private:

@@ -33,7 +33,7 @@ struct StoredBytes {
 /// What to do with a landmark whose id is taken.
 enum class IfTaken {
   kRefuse,  ///< throw StoreError: another process writes to a store that is not shared
-  kNextId,  ///< give it the next free id
+  kNextId,  ///< give it the next free id; in a database always, so that no id is given twice, not even a removed one's
 };
 
 /// Landmarks in an SQLite file, or in a PostgreSQL database. Changes are on disk when the call returns, whole or not at
@@ -62,6 +62,8 @@ class LandmarkStore {
   const DescriptionSettings& settings() const noexcept { return settings_; }
   /// Throws if the store was made with other settings, naming each key that differs and both values.
   void require(const DescriptionSettings& settings) const;
+  /// Sets the longest wait for locks of other processes on a file. Initially kBusy_ms; for a database, without effect.
+  void wait_for_locks(int limit_ms) noexcept;
 
   /// Returns the landmark's id: its own, or the next free one if that is 0. Throws std::invalid_argument for a landmark
   /// that breaks the rules of its settings, StoreError if the id is taken. Keeps `use` with it, if given.
@@ -90,6 +92,8 @@ class LandmarkStore {
                              const std::function<void(const std::string&)>& report = {});
 
   std::size_t size() const;
+  /// The highest id, also of a record that breaks the rules, or that a database has given; 0: none.
+  std::uint32_t last_id() const;
   /// Passes all landmarks without keypoints and thumbnails, in order of ids: the content of a library. `visit` may read
   /// from the store. Records that break the rules of the store's settings are skipped and passed to `report`.
   void for_each(const std::function<void(PanoramicLandmark)>& visit,

@@ -11,8 +11,8 @@ class StoreError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A server cannot be reached, or refuses for now (full disk, missing rights). The same call may succeed later; until
-/// then, nothing of it is stored.
+/// A server cannot be reached, or refuses for now (full disk, missing rights), or another process holds the lock of a
+/// file. The same call may succeed later; until then, nothing of it is stored.
 class StoreUnavailable : public StoreError {
  public:
   using StoreError::StoreError;

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "panvo/vision/stamp_sequence.hpp"
+
 namespace panvo::panorama_stitcher {
 
 /// Groups simultaneous images of the heads of a rig, whose stamps differ by at most a tolerance. A head absent from
@@ -36,6 +38,7 @@ class HeadSets {
   /// Adds an image. Returns the sets that it completes, oldest first.
   std::vector<Set> push(std::size_t head, std::int64_t stamp_ns, Item item) {
     heads_.at(head).is_missing = false;
+    if (heads_[head].stamps.add(stamp_ns) == vision::StampOrder::kSetBack) forget_after(stamp_ns);
     if (last_ns_ && stamp_ns <= *last_ns_ + settings_.tolerance_ns) {
       ++heads_[head].unpaired;  // its set is already complete or dropped
       return {};
@@ -61,6 +64,7 @@ class HeadSets {
     bool is_missing = false;
     int absent = 0;  ///< consecutive sets without it
     std::uint64_t unpaired = 0;
+    vision::StampSequence stamps;
   };
   struct Stamped {
     std::int64_t stamp_ns;
@@ -122,6 +126,19 @@ class HeadSets {
     }
     last_ns_ = key_ns;
     waiting_.erase(waiting_.begin());
+  }
+
+  /// The clock was set back: what is later is of the time before. Each head finds that out for itself, and leaves alone
+  /// the sets of the new time that the others have begun.
+  void forget_after(std::int64_t stamp_ns) {
+    const auto later = waiting_.upper_bound(stamp_ns + settings_.tolerance_ns);
+    for (auto set = later; set != waiting_.end(); ++set) {
+      for (std::size_t i = 0; i < heads_.size(); ++i) {
+        if (set->second[i]) ++heads_[i].unpaired;
+      }
+    }
+    waiting_.erase(later, waiting_.end());
+    if (last_ns_ && stamp_ns <= *last_ns_) last_ns_.reset();
   }
 
   Settings settings_;

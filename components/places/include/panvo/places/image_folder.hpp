@@ -26,7 +26,8 @@ struct FolderImage {
 
 /// The images of a folder, or of the list of one image, in order of the numbers in their names. Poses and times come from
 /// `poses`: lines `image,x_m,y_m,heading_deg` (names, any order), or TUM (`t x y z qx qy qz qw`) or KITTI (12 numbers, optical
-/// axes), one per image in order. Empty: poses.csv or poses.txt in the folder, if there. Throws FolderError.
+/// axes), one per image in order; the first line may name the columns. Empty: poses.csv or poses.txt in the folder, if
+/// there. Throws FolderError.
 std::vector<FolderImage> read_image_folder(const std::filesystem::path& folder, const std::filesystem::path& poses);
 
 }  // namespace panvo::places

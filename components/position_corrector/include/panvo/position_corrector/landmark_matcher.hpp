@@ -17,6 +17,7 @@
 #include "panvo/landmarks/panorama_describer.hpp"
 #include "panvo/position_corrector/panorama_pose.hpp"
 #include "panvo/vision/stage_observer.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 
 namespace panvo::position_corrector {
 
@@ -132,7 +133,7 @@ class LandmarkMatcher {
   /// Keypoints are not taken from what the vehicle covers: 0 in `seen` (CV_8UC1, any size, for the whole panorama).
   void set_seen(const cv::Mat& seen) { seen_ = seen; }
 
-  /// Processes frames in order of stamps.
+  /// Processes frames in order of stamps. If the clock was set back, what was locked is searched anew.
   LandmarkMatch match(const PanoramaFrame& frame, const landmarks::LandmarkLibrary& library);
 
  private:
@@ -181,6 +182,7 @@ class LandmarkMatcher {
   bool has_started_ = false;
   double travelled_m_ = 0.0;
   std::map<std::uint32_t, double> seen_at_m_;  ///< path length at which a landmark was last built or matched
+  vision::StampSequence stamps_;
   std::optional<Lock> lock_;
   cv::Mat seen_;  // for keypoints; empty: all of the panorama
 };

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "panvo/runtime/container.hpp"
@@ -16,6 +17,7 @@ namespace panvo::runner {
 struct RunSummary {
   std::uint64_t frames_in = 0, frames_out = 0;
   std::uint64_t frames_unreliable = 0;  ///< poses without measured motion
+  std::uint64_t lines = 0;              ///< in the result files
   std::vector<runtime::QueueCounters> queues;
   double cpu_s = 0.0, wall_s = 0.0, peak_memory_mb = 0.0;
   std::string version;
@@ -44,7 +46,7 @@ class RunFiles {
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
 
-  /// True for nav_msgs/msg/Odometry topics that end in /odometry/binocular, /odometry/enhanced or
+  /// True for nav_msgs/msg/Odometry topics that end in /odometry/binocular, /odometry/enhanced, /odometry/fleet or
   /// /ground_truth/odometry, and for the topics of landmarks, matches, quality, azimuth changes, corrections, states
   /// and integrity.
   bool wants(const runtime::TopicDescription& topic) const;
@@ -53,8 +55,8 @@ class RunFiles {
   /// robots), the first has the plain file name; the others are prefixed with their namespace.
   void write(const runtime::TopicDescription& topic, const runtime::SamplePtr& sample);
 
-  /// Whether any message was written.
-  bool has_lines() const;
+  /// Messages written.
+  std::uint64_t lines() const;
 
   void finish(const RunSummary& summary, const runtime::ComponentTimes& times_by_component);
 
@@ -65,15 +67,24 @@ class RunFiles {
   std::map<std::string, std::vector<std::unique_ptr<TopicFile>>> files_by_topic_;
 };
 
-/// Creates the folder for the results of a run and marks it, so that the next run may replace its contents. Throws
-/// ConfigError if the folder has contents that no run has written, unless `overwrite` is set: then the run's files are
-/// replaced and other files are kept.
+/// Whether a run writes results under this file name; `may_have_namespace`: also those of further robots.
+bool is_result_file(std::string_view name, bool may_have_namespace);
+
+/// What to report of a run without results.
+std::string nothing_written(const std::filesystem::path& folder);
+
+/// Creates the folder for the results of a run and marks it, so that the next run may replace its contents. Removes the
+/// results of an earlier run, which a run of other topics would leave beside its own. Throws ConfigError if the folder
+/// has contents that no run has written, unless `overwrite` is set: then the run's files are replaced and other files
+/// are kept.
 void claim_run_folder(const std::filesystem::path& folder, bool overwrite);
 
 /// Merges the results that several containers left in `subfolders` of `folder` (names). timing.json: joins the
 /// components. summary.json: adds frames, CPU time, memory and lists; takes the longest wall time and the first exit
 /// status other than 0. Other files are moved up, prefixed with the subfolder's name if two have the same name. A
-/// container without a summary was killed: a problem and exit status 1. Throws std::runtime_error like RunFiles.
-void merge_run_files(const std::filesystem::path& folder, const std::vector<std::string>& subfolders);
+/// container without a summary was killed: a problem and exit status 1. The same, and false is returned, if
+/// `must_have_results` and no container wrote a line. Throws std::runtime_error like RunFiles.
+bool merge_run_files(const std::filesystem::path& folder, const std::vector<std::string>& subfolders,
+                     bool must_have_results);
 
 }  // namespace panvo::runner

@@ -39,4 +39,12 @@ std::string full_name(std::string_view name_space, std::string_view name);
 std::string resolve_topic(std::string_view name_space, std::string_view node_name,
                           const std::map<std::string, std::string>& remaps, std::string_view topic);
 
+/// Whether there is a rule for this topic of a node, in any form.
+bool is_remapped(std::string_view name_space, std::string_view node_name,
+                 const std::map<std::string, std::string>& remaps, std::string_view topic);
+
+/// Adds a rule, which replaces those for the same topic in other forms.
+void set_remap(std::string_view name_space, std::string_view node_name, std::map<std::string, std::string>& remaps,
+               const std::string& from, const std::string& to);
+
 }  // namespace panvo::runtime

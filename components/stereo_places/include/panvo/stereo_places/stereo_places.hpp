@@ -113,11 +113,13 @@ class StereoPlaces {
   /// Updates the pose of a landmark; false if it is unknown.
   bool set_pose(const landmarks::LandmarkPose& pose);
 
-  /// Whether the view at this moment is to be passed to step().
+  /// Whether the view at this moment is to be passed to step(). Its stamp is before the last one only if the clock was
+  /// set back.
   bool is_due(std::int64_t stamp_ns, const Eigen::Isometry3d& odom_from_base, double way_m) const;
 
-  /// Compares a view with the places, and builds one from it if it shows too little of any.
-  ViewResult step(const StereoView& view);
+  /// Compares a view with the places, and builds one from it if it shows too little of any. `next_id`: lower ids are
+  /// taken, by landmarks that are unknown here as well.
+  ViewResult step(const StereoView& view, std::uint32_t next_id = 1);
 
   std::size_t size() const noexcept { return library_.size(); }
 
@@ -140,7 +142,8 @@ class StereoPlaces {
                                                                 const position_corrector::BasePose& pose);
   void end_pass(ViewResult& result);
   bool is_new_place(const StereoView& view) const;
-  void build(const StereoView& view, std::vector<landmarks::Keypoint> keypoints, ViewResult& result);
+  void build(const StereoView& view, std::uint32_t next_id, std::vector<landmarks::Keypoint> keypoints,
+             ViewResult& result);
   void set_reference(const Eigen::Isometry3d& odom_from_view, const std::vector<landmarks::Keypoint>& keypoints);
   void keep(landmarks::PanoramicLandmark landmark);
 

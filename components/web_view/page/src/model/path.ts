@@ -17,12 +17,14 @@ export function widen(bounds: Bounds, x: number, y: number): void {
   bounds.top = Math.max(bounds.top, y);
 }
 
+let revisions = 0; // of all paths, so that no two have the same
+
 /** Poses in order of time, in arrays that grow. When it is full, every other pose is left out. */
 export class Path {
   static readonly chunk = 256; // poses with common bounds
 
   count = 0;
-  revision = 0; // changes when poses are removed
+  revision = ++revisions; // changes when poses are removed
   received = 0; // poses added, whether or not they are still kept
   times = new Float64Array(1024);
   xs = new Float64Array(1024);
@@ -46,7 +48,7 @@ export class Path {
   }
 
   clear(): void {
-    ++this.revision;
+    this.revision = ++revisions;
     this.count = this.received = 0;
     this.chunks = [];
   }
@@ -55,7 +57,7 @@ export class Path {
   cut(time: number): void {
     const count = this.indexAt(time - 1e-6) + 1;
     if (count === this.count) return;
-    ++this.revision;
+    this.revision = ++revisions;
     this.count = count;
     this.chunks.length = Math.ceil(count / Path.chunk);
     const begin = (this.chunks.length - 1) * Path.chunk;

@@ -26,6 +26,7 @@ export class PlayerPanel {
   #moved_ms = -Infinity;
   #isDragged = false;
   #node: string | undefined;
+  #offered: string[] = []; // services of the node
   #toggle = h("button.icon", { onclick: () => void this.toggle() });
   #rate = h("select", { "aria-label": "Speed", onchange: () => void this.#setRate(Number(this.#rate.value)) });
   #slider = h("input", { type: "range", step: "0.1", "aria-label": "Position in what was played" });
@@ -77,13 +78,16 @@ export class PlayerPanel {
   }
 
   offer(services: { name: string; type: string }[]): void {
-    const pause = services.find(({ type }) => type === "rosbag2_interfaces/srv/Pause");
-    this.element.hidden = !pause;
-    const node = pause?.name.replace(/\/pause$/, "");
-    if (node === this.#node) return;
-    this.#node = node;
-    this.isPaused = false;
-    [this.#first_s, this.#last_s] = this.range_s ?? [Infinity, -Infinity];
+    const seek = services.find(({ type }) => type === "rosbag2_interfaces/srv/Seek"); // a recorder offers Pause, too
+    this.element.hidden = !seek;
+    const node = seek?.name.replace(/\/seek$/, "");
+    const before = this.#offered;
+    this.#offered = node === undefined ? [] : services.map(({ name }) => name).filter((name) => name.startsWith(`${node}/`));
+    if (node !== this.#node) {
+      this.#node = node;
+      this.isPaused = false;
+      [this.#first_s, this.#last_s] = this.range_s ?? [Infinity, -Infinity];
+    } else if (this.#offered.every((name) => before.includes(name))) return;
     void this.#refresh();
   }
 
@@ -146,9 +150,10 @@ export class PlayerPanel {
   }
 
   async #ask(service: string, request: unknown): Promise<unknown> {
-    if (this.#node === undefined) return undefined;
+    const name = `${this.#node}/${service}`;
+    if (!this.#offered.includes(name)) return undefined;
     try {
-      return await this.call(`${this.#node}/${service}`, request);
+      return await this.call(name, request);
     } catch {
       return undefined; // the player is gone, which the list of services will tell
     }

@@ -33,10 +33,14 @@ async function opened(width: number, height: number): Promise<Page> {
 
 const becomes = (page: Page, state: string) => page.waitForFunction((text) => document.querySelector("#player .state")?.textContent === text, { polling: 100 }, state);
 
-/** Acts as a player whose bag is at 100 s, and notes what the page asks of it. */
-function actAsPlayer(): void {
+/** Acts as a player whose bag is at 100 s, and notes what the page asks of it. Without `isOffered`, its services do not come yet. */
+function actAsPlayer(isOffered = true): void {
   const tells = panvo.on.bind(panvo);
-  const player = { paused: false, rate: 1, asked: [] as string[], tells };
+  const offered = ["Pause", "TogglePaused", "IsPaused", "GetRate", "SetRate", "Seek"].map((type) => ({
+    name: `/rosbag2_player/${type.replace(/\B[A-Z]/g, "_$&").toLowerCase()}`,
+    type: `rosbag2_interfaces/srv/${type}`,
+  }));
+  const player = { paused: false, rate: 1, asked: [] as string[], tells, offered };
   Object.assign(globalThis, { player });
   panvo.on = () => {}; // the server's own list of services may still be on its way, and has no player
   panvo.send = (order) => {
@@ -48,10 +52,10 @@ function actAsPlayer(): void {
     if (rate) player.rate = rate;
     queueMicrotask(() => tells({ kind: "reply", call: order.call, response: player }));
   };
-  tells({ kind: "services", services: [{ name: "/rosbag2_player/pause", type: "rosbag2_interfaces/srv/Pause" }] });
+  if (isOffered) tells({ kind: "services", services: offered });
   for (const time_s of [90, 120, 100]) tells({ kind: "time", time_s });
 }
-declare const player: { asked: string[]; tells: App["on"] };
+declare const player: { asked: string[]; tells: App["on"]; offered: { name: string; type: string }[] };
 
 for (const [name, width, height] of [["computer", 1280, 800], ["phone", 390, 844]] as const) {
   test(`a bag is paused, moved and played faster by keys and buttons with names, on a ${name}`, async () => {
@@ -97,5 +101,36 @@ test("the slider spans the whole bag if its time range is known, and seeks stay 
   await page.keyboard.press(".");
   await page.waitForFunction(() => player.asked.length === 2, { polling: 100 });
   assert.equal(await page.evaluate(() => player.asked.at(-1)), "seek 150");
+  await page.close();
+});
+
+test("a recorder is not taken for a player, although it can be paused", async () => {
+  const page = await opened(1280, 800);
+  await page.evaluate(actAsPlayer, false);
+  const seen = await page.evaluate(async () => {
+    const called: string[] = [];
+    const answers = panvo.send;
+    panvo.send = (order) => {
+      if (order.kind !== "call") return;
+      called.push(order.service);
+      if (!order.service.startsWith("/rosbag2_recorder/")) return answers(order);
+      queueMicrotask(() => player.tells({ kind: "reply", call: order.call, response: { paused: true } }));
+    };
+    const recorder = ["Pause", "IsPaused"].map((type, i) => ({ name: `/rosbag2_recorder/${["pause", "is_paused"][i]}`, type: `rosbag2_interfaces/srv/${type}` }));
+    const look = async (services: typeof recorder) => {
+      player.tells({ kind: "services", services });
+      await new Promise((resolve) => setTimeout(resolve)); // after all replies
+      panvo.update();
+      return { hidden: document.getElementById("player")!.hidden, title: document.getElementById("state-title")!.textContent, asked: called.splice(0) };
+    };
+    panvo.update();
+    const before = document.getElementById("state-title")!.textContent;
+    const alone = await look(recorder);
+    const seekable = player.offered.filter(({ name }) => name.endsWith("/seek"));
+    return { before, alone, seekable: await look([...recorder, ...seekable]), both: await look([...recorder, ...player.offered]) };
+  });
+  assert.deepEqual(seen.alone, { hidden: true, title: seen.before, asked: [] });
+  assert.deepEqual(seen.seekable, { hidden: false, title: seen.before, asked: [] }, "only services that are offered are called");
+  assert.deepEqual(seen.both, { hidden: false, title: seen.before, asked: ["/rosbag2_player/is_paused", "/rosbag2_player/get_rate"] });
   await page.close();
 });
