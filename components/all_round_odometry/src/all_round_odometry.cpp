@@ -46,6 +46,7 @@ bool AllRoundOdometry::add(const StereoPose& stereo) {
   is_stereo_silent_ = false;
   if (blind_ || held_ > 0 || (!stereo.is_reliable && has_panoramas)) {
     ++held_;
+    if (sure_ns_ == INT64_MIN) sure_ns_ = stereo.stamp_ns;  // blind from the start: patience begins here
   } else {
     emit(stereo);
   }

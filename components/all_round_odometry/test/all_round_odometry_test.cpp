@@ -73,6 +73,15 @@ class Drive : public ::testing::Test {
   std::vector<AllRoundPose> poses_;
 };
 
+TEST_F(Drive, ThatBeginsBlindGoesOnOnceTheCameraSees) {
+  go(1, 10, Stereo::kBlind);
+  go(11, 30, Stereo::kGood);
+  ASSERT_GE(poses_.size(), 20U * kFrames);
+  EXPECT_TRUE(poses_.back().is_reliable);
+  EXPECT_NEAR(panorama_of(poses_.back()), 30.0, 1e-6);
+  expect_increasing_stamps();
+}
+
 TEST_F(Drive, LeavesReliableStereoOdometryAsItIs) {
   std::vector<StereoPose> stereo;
   for (int now = 1; now <= 20; ++now) {
