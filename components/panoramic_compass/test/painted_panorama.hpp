@@ -27,12 +27,12 @@ inline cv::Mat paint_panorama(unsigned seed = 1) {
   };
   for (int x = 0; x < kColumns; x += 40) {  // walls
     const int top = whole(100, 240);
-    const cv::Rect wall{x, top, whole(25, 60), 290 - top};
-    rectangle(wall, whole(40, 200));
+    const int grey = whole(40, 200);
+    rectangle({x, top, whole(25, 60), 290 - top}, grey);
   }
   for (int i = 0; i < 700; ++i) {  // details on the walls
-    const cv::Rect detail{whole(0, kColumns), whole(110, 290), whole(4, 16), whole(4, 16)};
-    rectangle(detail, whole(20, 235));
+    const int grey = whole(20, 235);
+    rectangle({whole(0, kColumns), whole(110, 290), whole(4, 16), whole(4, 16)}, grey);
   }
   cv::GaussianBlur(wide, wide, cv::Size(9, 9), 1.5);
   return wide.colRange(kColumns, 2 * kColumns).clone();
