@@ -142,7 +142,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
     work_off();
   }
 
-  /// The clock was set back: stamps of the time before would be taken for those of the new time.
+  /// After the clock was set back: old stamps must not be mixed with new ones.
   void begin_anew() {
     odometry_.clear();
     waiting_.clear();

@@ -14,8 +14,8 @@ namespace {
 
 std::string name_of(const Recipe& recipe) { return recipe.description.name; }
 
-/// Whether a failure is followed by a restart. A source has lost its position. A recorder (`taps`) has lost messages,
-/// which is a problem of the run, and must not begin its bag anew.
+/// Whether a failure is followed by a restart. A source has lost its position. A recorder (`taps`) has lost messages: the
+/// run reports that, and a new one might replace the bag.
 bool is_restartable(const Context::State& state) {
   return state.description.on_error == OnError::kRestart && !state.finalized && !state.source && !state.taps;
 }
