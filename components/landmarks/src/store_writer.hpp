@@ -30,7 +30,7 @@ class StoreWriter {
   virtual void require(const DescriptionSettings& settings) = 0;
   /// To a file: at once, or with a later change if another process holds its lock; throws StoreError, or
   /// std::invalid_argument for a landmark that breaks the rules. To a server: later, and never waits. Returns false if
-  /// there is no room for a change that has to wait: it is lost.
+  /// the change would have to wait and too many wait already: it is lost.
   virtual bool write(StoreChange change) = 0;
   /// What there was to tell since the last call.
   virtual std::vector<StoreNotice> notices() { return {}; }

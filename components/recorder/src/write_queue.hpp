@@ -25,7 +25,7 @@ class WriteQueue {
 
   WriteQueue(std::size_t max_bytes, std::size_t max_items) : max_bytes_(max_bytes), max_items_(max_items) {}
 
-  /// False: the message is counted as dropped, as there is no room or the queue is closed.
+  /// Returns false if the queue is full or closed; the message then counts as dropped.
   bool push(const runtime::TopicDescription& topic, const runtime::SamplePtr& sample);
   void push_split();
 

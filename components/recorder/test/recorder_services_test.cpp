@@ -172,7 +172,7 @@ TEST_F(UnloadedRecorder, HasWrittenAllThatWasPublished) {
   EXPECT_EQ(dropped_messages(bag.metadata()), 0u);
 }
 
-/// Throws, unless it is made anew.
+/// Throws in its first instance; restarted, it works.
 class Fragile final : public runtime::Component {
  public:
   Fragile(runtime::Context& context, std::promise<void>& made_anew) {
@@ -198,7 +198,7 @@ class FailedRecorder : public RecorderServices {
     call<SplitBagfile_Response>("split_bagfile", SplitBagfile_Request());
     ASSERT_TRUE(is_logged("rosbag2_recorder: stopped by an error"));
   }
-  /// A component that has failed later is made anew later, too.
+  /// Restarts follow the order of failures.
   void wait_for_restarts() {
     std::promise<void> made_anew;
     auto fragile = test::description("fragile");

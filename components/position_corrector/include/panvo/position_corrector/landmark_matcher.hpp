@@ -133,7 +133,7 @@ class LandmarkMatcher {
   /// Keypoints are not taken from what the vehicle covers: 0 in `seen` (CV_8UC1, any size, for the whole panorama).
   void set_seen(const cv::Mat& seen) { seen_ = seen; }
 
-  /// Processes frames in order of stamps. If the clock was set back, what was locked is searched anew.
+  /// Processes frames in order of stamps. If the clock was set back, the lock is released.
   LandmarkMatch match(const PanoramaFrame& frame, const landmarks::LandmarkLibrary& library);
 
  private:
