@@ -5,14 +5,16 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "panvo/localizer/odometry_buffer.hpp"
 
 namespace panvo::localizer {
 
-/// Turns odometry into one continuous motion. A pose that no vehicle can reach from the previous one is rejected. If
-/// several in a row agree on such a place, odometry was restarted with another origin: the motion continues from the
-/// last pose, with an unmeasured gap.
+/// Turns odometry into one continuous motion. A pose that no vehicle can reach from the previous one is rejected, and
+/// so is one at which an odometry seems to begin: near its origin, with a much smaller covariance. If several in a row
+/// agree on such a place, odometry was restarted with another origin: the motion continues from the last pose, with an
+/// unmeasured gap.
 class OdometryOrigin {
  public:
   /// `max_speed_m_s`: of any possible vehicle.
@@ -35,18 +37,28 @@ class OdometryOrigin {
     std::int64_t stamp_ns;
     Eigen::Isometry3d odom_from_base;
   };
+  using Places = std::vector<Place>;
+  struct Shift {  // of the pose at which odometry began anew
+    OdometryPose received, continued;
+  };
 
+  void accept(const OdometryPose& received);
+  void begin_anew(const OdometryPose& received);
+  bool goes_on(const Place& here, const vision::Matrix6d& covariance) const;
+  bool begins(const Place& here, const vision::Matrix6d& covariance) const;
   bool is_within_reach(const Place& from, const Place& to) const;
+  vision::Vector6d velocity(const Places& places) const;
   OdometryPose continued(const OdometryPose& received) const;
 
-  static constexpr int kRun = 5;  // consecutive messages that agree on another place
+  static constexpr std::size_t kRun = 5;  // consecutive messages that agree on another place
 
   const double max_speed_m_s_;
-  std::optional<Place> last_, elsewhere_;  // as received: last accepted, and last rejected since
-  int run_ = 0;
-  std::optional<Eigen::Isometry3d> odom_from_received_;  // nullopt: identical
-  vision::Matrix6d covariance_before_ = vision::Matrix6d::Zero();
-  OdometryPose latest_;  // as returned
+  // As received: the last accepted ones, over a time that shows the velocity, and the rejected ones since that agree.
+  Places recent_, elsewhere_;
+  vision::Matrix6d reliable_covariance_ = vision::Matrix6d::Zero();  // of the last reliable pose, as received
+  bool shrinks_ = false;        // the covariance, by itself: it has where no restarted odometry can be
+  std::optional<Shift> shift_;  // nullopt: none
+  OdometryPose latest_;         // as returned
 };
 
 }  // namespace panvo::localizer
