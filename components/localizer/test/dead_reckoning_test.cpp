@@ -26,6 +26,25 @@ TEST(DeadReckoning, GrowsByTheTimeAndNotByTheNumberOfFrames) {
   EXPECT_NEAR(std::sqrt(once(0, 0)), 0.5 * 1.5 * 16.0, 1e-9);
 }
 
+TEST(DeadReckoning, TakesAGapForOneAlsoAfterALongerOne) {
+  const vision::Matrix6d after_5_s = DeadReckoning({}, 0.5).silence(5.0);
+  for (const int before : {0, 1, 100}) {
+    DeadReckoning dead_reckoning({}, 0.5);
+    for (int i = 0; i < before; ++i) dead_reckoning.step(0.04, true);
+    dead_reckoning.step(3600.0, true);
+    dead_reckoning.step(0.04, true);
+    EXPECT_TRUE(dead_reckoning.step(5.0, true).isApprox(after_5_s, 1e-9)) << "after " << before << " steps";
+  }
+}
+
+TEST(DeadReckoning, GetsUsedToOdometryThatHasBecomeSlower) {
+  DeadReckoning dead_reckoning({}, 0.5);
+  for (int i = 0; i < 100; ++i) dead_reckoning.step(0.04, true);
+  int gaps = 0;
+  for (int i = 0; i < 100; ++i) gaps += dead_reckoning.step(1.0, true).isZero(0.0) ? 0 : 1;
+  EXPECT_EQ(gaps, 11) << "until they are half of the last intervals";
+}
+
 TEST(DeadReckoning, GoesOnAtASpeed) {
   DeadReckoning dead_reckoning({}, 0.5);
   EXPECT_NEAR(std::sqrt(dead_reckoning.silence(60.0)(0, 0)), 600.0, 1e-9);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
+
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::localizer {
@@ -43,12 +45,13 @@ class DeadReckoning {
   vision::Matrix6d silence(double seconds) const;
 
  private:
+  double usual_s() const;
   vision::Vector6d variance_after(double seconds) const;
 
   const MotionPrior prior_;
   const double gap_s_;
-  double usual_s_ = 0.0;  // usual interval
-  double blind_s_ = 0.0;  // time since the motion was last measured
+  std::deque<double> intervals_s_;  // the last ones
+  double blind_s_ = 0.0;            // time since the motion was last measured
 };
 
 /// `covariance`, raised to at least `least` in every direction; for combining two estimates of one covariance.
