@@ -14,6 +14,8 @@ inline std::int64_t read_ns(clockid_t clock) noexcept {
 }
 
 inline std::int64_t monotonic_ns() noexcept { return read_ns(CLOCK_MONOTONIC); }
+/// Goes on while the computer is suspended: the vehicle may have been moved meanwhile.
+inline std::int64_t elapsed_ns() noexcept { return read_ns(CLOCK_BOOTTIME); }
 inline std::int64_t system_ns() noexcept { return read_ns(CLOCK_REALTIME); }
 inline std::int64_t process_cpu_ns() noexcept { return read_ns(CLOCK_PROCESS_CPUTIME_ID); }
 

@@ -39,7 +39,7 @@ Container::Implementation::Implementation(ContainerOptions options)
     : options_(std::move(options)),
       sink_(options_.log ? options_.log : Logger::Write(log_to_stderr)),
       time_(options_.replay && !options_.clock ? PassingTime::Pace::kTasks : PassingTime::Pace::kClock,
-            options_.clock ? options_.clock : std::function<std::int64_t()>(clocks::monotonic_ns)),
+            options_.clock ? options_.clock : std::function<std::int64_t()>(clocks::elapsed_ns)),
       replay_order_(time_),
       bus_(
           options_.dds && !options_.replay ? make_dds_bridge(*options_.dds) : nullptr,
