@@ -125,7 +125,7 @@ bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
 void Localizer::set_clock_back(std::int64_t by_ns) {
   if (chain_.empty()) return;
   // Which of the two times was right is unknown, and so is the vehicle's position at that time.
-  const double by_s = std::min(vision::seconds(0, by_ns), kMistakenFor_s);
+  const double by_s = std::min(std::abs(vision::seconds(0, by_ns)), kMistakenFor_s);
   const std::int64_t latest_ns = chain_.latest().pose.stamp_ns;
   const auto twist = chain_.twist(latest_ns);
   const double way_m = (twist ? twist->head<2>().norm() * by_s : 0.0) + way_sigma_m(parameters_.motion, by_s);

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "alignment_notices.hpp"
+#include "clock_jump.hpp"
 #include "component_parameters.hpp"
 #include "last_pose_keeper.hpp"
 #include "localizer_messages.hpp"
@@ -69,16 +70,19 @@ class LocalizerComponent final : public runtime::Component {
   static constexpr double kNoPanorama_s = 10.0;
   static constexpr double kUnlocatedFor_m = 500.0;  // by then a mapped place should have been passed
 
-  /// The odometry's clock was set back: shifts all stored stamps.
-  void set_clock_back(std::int64_t back_ns) {
-    const std::int64_t by_ns = back_ns + kInterval_ns;
+  /// The odometry's clock was set back, or forward if negative: shifts all stored stamps. What waits is of the time
+  /// before.
+  void set_clock_back(std::int64_t by_ns) {
     localizer_.set_clock_back(by_ns);
-    *begin_ns_ -= by_ns;
+    if (by_ns > 0) *begin_ns_ -= by_ns;  // else landmarks of this journey may still come with earlier stamps
     azimuth_ns_.reset();
+    waiting_.clear();
+    satellites_.forget_stamps();
     publisher_.forget_stamps();
-    context_.log().warn("the clock of {} was set back by {:.1f} s: continuing with the new time",
-                        context_.resolved_name(topics::kOdometryBinocular),
-                        static_cast<double>(back_ns) / vision::kSecond_ns);
+    jump_ = {};
+    context_.log().warn("the clock of {} was set {} by {:.1f} s: continuing with the new time",
+                        context_.resolved_name(topics::kOdometryBinocular), by_ns > 0 ? "back" : "forward",
+                        std::abs(static_cast<double>(by_ns)) / vision::kSecond_ns);
   }
 
   /// Reports an unusable message in the log and in diagnostics.
@@ -95,8 +99,11 @@ class LocalizerComponent final : public runtime::Component {
     if (order == vision::StampOrder::kNotLater) {
       return refuse(context_.resolved_name(topics::kOdometryBinocular), "has a stamp not later than the previous one");
     }
+    const std::int64_t forward_ns = jump_.add(stamp_ns, context_.passing_ns());
     if (order == vision::StampOrder::kSetBack && begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns) {
-      set_clock_back(localizer_.latest().stamp_ns - stamp_ns);
+      set_clock_back(localizer_.latest().stamp_ns - stamp_ns + kInterval_ns);
+    } else if (forward_ns > 0 && begin_ns_) {
+      set_clock_back(-forward_ns);
     }
     const OdometryPose received{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()),
                                 joined.quality.is_reliable, joined.quality.lean_sigma_rad_per_m};
@@ -315,6 +322,7 @@ class LocalizerComponent final : public runtime::Component {
   AlignmentNotices notices_;
   std::optional<conversions::OdometryListener> odometry_input_;
   vision::StampSequence stamps_;  // of the odometry
+  ClockJump jump_;
   PathRecord path_binocular_, path_enhanced_;
   PosePublisher publisher_;
   Satellites satellites_;

@@ -30,6 +30,7 @@ class PanoramaQueue {
   bool push(const PanoramaFact& fact);
   /// Removes and returns the next entry that need not wait.
   std::optional<PanoramaFact> next(const Localizer& localizer);
+  void clear() { waiting_.clear(); }
 
  private:
   static constexpr std::size_t kMaxWaiting = 100;

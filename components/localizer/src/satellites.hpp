@@ -27,6 +27,8 @@ class Satellites {
   bool work_off();
   /// To be called with each pose of new odometry, also to keep the georeference.
   void publish(std::int64_t stamp_ns, const std::string& base_frame);
+  /// To be called after a clock change: forgets the fixes that wait.
+  void forget_stamps() { waiting_.clear(); }
 
  private:
   void on_fix(const sensor_msgs::msg::NavSatFix& message);

@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "clock_jump.hpp"
 #include "localizer_on_topics.hpp"
 #include "panvo/interfaces/time_topics.hpp"
 
@@ -11,6 +13,49 @@ namespace panvo::localizer {
 namespace {
 
 using ::testing::SizeIs;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+/// Messages whose clock is slow by 100 us/s, with delays that vary by 20 ms.
+struct Sender {
+  ClockJump jump;
+  std::int64_t time_ns = 0, clock_ns = kBegin_ns;
+
+  std::int64_t send(std::int64_t late_ns = 0) {
+    time_ns += kPeriod_ns;
+    const std::int64_t stamp_ns = clock_ns + time_ns - time_ns / 10'000;
+    return jump.add(stamp_ns, time_ns + late_ns + time_ns / kPeriod_ns % 5 * 4'000'000);
+  }
+  std::int64_t most_of(int count) {
+    std::int64_t most_ns = 0;
+    for (int i = 0; i < count; ++i) most_ns = std::max(most_ns, send());
+    return most_ns;
+  }
+};
+
+TEST(ClockJump, IsToldWithItsHeightAndOnce) {
+  Sender sender;
+  EXPECT_EQ(sender.most_of(25 * 3600), 0) << "with the slow clock";
+  sender.clock_ns += 3600 * kSecond_ns;
+  EXPECT_NEAR(1e-9 * static_cast<double>(sender.send()), 3600.0, 0.05);
+  EXPECT_EQ(sender.most_of(100), 0);
+}
+
+TEST(ClockJump, IsNoSilence) {
+  Sender sender;
+  sender.most_of(100);
+  sender.time_ns += 3600 * kSecond_ns;
+  EXPECT_EQ(sender.most_of(100), 0);
+}
+
+TEST(ClockJump, IsNoTimeThatAProcessWasStopped) {
+  Sender sender;
+  sender.most_of(100);
+  for (int i = 0; i < 250; ++i) EXPECT_EQ(sender.send(3 * kSecond_ns), 0) << "the messages wait";
+  EXPECT_EQ(sender.most_of(100), 0) << "and no longer";
+  sender.clock_ns -= 3600 * kSecond_ns;
+  EXPECT_EQ(sender.most_of(100), 0) << "set back";
+}
 
 TEST_F(LocalizerOnTopics, SaysThatTheCamerasClocksDisagree) {
   load();

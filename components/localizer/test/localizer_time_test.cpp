@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
@@ -37,8 +39,8 @@ Eigen::Isometry3d ahead(double x, double y = 0.0) {
 class Vehicle {
  public:
   explicit Vehicle(const std::map<std::string, std::string>& parameters = {{"fusion.clock_sigma_s", "0"}},
-                   bool again = false)
-      : harness_({.replay = true, .again = again}) {
+                   bool again = false, std::function<std::int64_t()> clock = {})
+      : harness_({.replay = true, .clock = std::move(clock), .again = again}) {
     harness_.load("panvo_localizer", "LocalizerComponent", parameters);
   }
 
@@ -56,6 +58,13 @@ class Vehicle {
   }
   void drive(int from, int to) {
     for (int i = from; i < to; ++i) harness_.publish(topics::kOdometryBinocular, odometry(i));
+  }
+  void drive_with_clock_set(int from, int to, std::int64_t forward_ns) {
+    for (int i = from; i < to; ++i) {
+      auto message = odometry(i);
+      message.header().stamp(conversions::to_stamp(stamp(i) + forward_ns));
+      harness_.publish(topics::kOdometryBinocular, message);
+    }
   }
   void tell_quality(int frame, bool is_reliable) {
     panvo_msgs::msg::OdometryQuality quality;
@@ -269,11 +278,7 @@ TEST(LocalizerTime, GoesOnWhenTheClockIsSetBack) {
   vehicle.tell_landmark(1, Vehicle::stamp(25), ahead(5.0));
   vehicle.drive(51, 151);
   const std::int64_t hour_ns = 3600 * kSecond_ns;
-  for (int i = 151; i < 176; ++i) {
-    auto odometry = Vehicle::odometry(i);
-    odometry.header().stamp(conversions::to_stamp(Vehicle::stamp(i) - hour_ns));
-    vehicle.harness_.publish(topics::kOdometryBinocular, odometry);
-  }
+  vehicle.drive_with_clock_set(151, 176, -hour_ns);
   EXPECT_NEAR(vehicle.x(), 35.0, 1e-6);
   EXPECT_EQ(conversions::stamp_ns(*vehicle.enhanced.back()), Vehicle::stamp(175) - hour_ns);
   EXPECT_EQ(vehicle.state(), states::TRACKING);
@@ -283,6 +288,58 @@ TEST(LocalizerTime, GoesOnWhenTheClockIsSetBack) {
   ASSERT_THAT(vehicle.outcomes, SizeIs(1));
   EXPECT_EQ(vehicle.outcomes[0]->outcome(), outcomes::APPLIED) << vehicle.outcomes[0]->reason();
   EXPECT_NEAR(vehicle.x(), 34.5, 0.2);
+}
+
+TEST(LocalizerTime, AppliesNothingThatWaitedFromBeforeTheClockWasSetBack) {
+  Vehicle vehicle;
+  vehicle.drive(0, 51);
+  vehicle.tell_landmark(1, Vehicle::stamp(25), ahead(5.0));
+  vehicle.drive(51, 151);
+  vehicle.harness_.publish(topics::kCorrection, vehicle.correction(1, 155, ahead(24.5)));
+  vehicle.drive_with_clock_set(151, 301, -4 * kSecond_ns);  // up to frame 200 of the time before
+  EXPECT_THAT(vehicle.outcomes, SizeIs(0));
+}
+
+/// The arrival times of 75 odometry messages tell whether there was an hour between the stamps of the 51st and the
+/// next.
+struct HourAhead {
+  explicit HourAhead(bool is_silence) {
+    for (int i = 0; i < 75; ++i) {
+      arrival_ns = i * kPeriod_ns + (is_silence && i > 50 ? kHour_ns : 0);
+      vehicle.drive_with_clock_set(i, i + 1, i > 50 ? kHour_ns : 0);
+      if (i == 25) vehicle.tell_landmark(1, Vehicle::stamp(25), ahead(5.0));
+    }
+  }
+
+  static constexpr std::int64_t kHour_ns = 3600 * kSecond_ns;
+  std::int64_t arrival_ns = 0;
+  Vehicle vehicle{{{"fusion.clock_sigma_s", "0"}}, false, [this] { return arrival_ns; }};
+};
+
+TEST(LocalizerTime, GoesOnWhenTheClockIsSetForward) {
+  HourAhead set(false);
+  Vehicle& vehicle = set.vehicle;
+  EXPECT_EQ(vehicle.state(), states::TRACKING) << vehicle.states.back()->reason();
+  EXPECT_NEAR(vehicle.x(), 14.8, 1e-6);
+  EXPECT_EQ(conversions::stamp_ns(*vehicle.enhanced.back()), Vehicle::stamp(74) + HourAhead::kHour_ns);
+  EXPECT_LT(std::sqrt(vehicle.enhanced.back()->pose().covariance()[0]), 50.0) << "as if it was set back";
+  EXPECT_TRUE(vehicle.harness_.log_contains("was set forward by 3600.0 s"));
+  auto correction = vehicle.correction(1, 74, ahead(9.3));
+  correction.header().stamp(conversions::to_stamp(Vehicle::stamp(74) + HourAhead::kHour_ns));
+  vehicle.harness_.publish(topics::kCorrection, correction);
+  ASSERT_THAT(vehicle.outcomes, SizeIs(1));
+  EXPECT_EQ(vehicle.outcomes[0]->outcome(), outcomes::APPLIED) << vehicle.outcomes[0]->reason();
+  EXPECT_NEAR(vehicle.x(), 14.3, 0.2);
+}
+
+TEST(LocalizerTime, IsLostAfterASilenceOfAnHour) {
+  const HourAhead silent(true);
+  EXPECT_EQ(silent.vehicle.state(), states::LOST);
+  EXPECT_GT(silent.vehicle.states.back()->position_sigma_m(), 10'000.0);
+  Vehicle replayed;  // where the stamps are all that tells the time
+  replayed.drive(0, 51);
+  replayed.drive_with_clock_set(51, 75, HourAhead::kHour_ns);
+  EXPECT_EQ(replayed.state(), states::LOST);
 }
 
 TEST(LocalizerTime, AfterACrashTheStartIsNotTheMapsOrigin) {
@@ -302,11 +359,7 @@ TEST(LocalizerTime, AfterACrashItTellsTheLastKnownPoseThatIsTooOldToGoOnFrom) {
     vehicle.drive(0, 51);
   }
   Vehicle vehicle(parameters, true);
-  for (int i = 0; i < 50; ++i) {
-    auto odometry = Vehicle::odometry(i);
-    odometry.header().stamp(conversions::to_stamp(Vehicle::stamp(25 * 120 + i)));
-    vehicle.harness_.publish(topics::kOdometryBinocular, odometry);
-  }
+  vehicle.drive_with_clock_set(0, 50, 120 * kSecond_ns);
   EXPECT_EQ(vehicle.state(), states::UNLOCATED);
   EXPECT_THAT(vehicle.states.back()->reason(), HasSubstr("last known position (10.0, 0.0) m in map"));
   EXPECT_NEAR(vehicle.enhanced.front()->pose().pose().position().x(), 10.0, 1e-9);

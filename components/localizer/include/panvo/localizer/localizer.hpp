@@ -136,7 +136,7 @@ class Localizer {
   /// longer stored or the pose has a fault.
   bool set_initial_pose(const PoseInMap& pose, std::int64_t stamp_ns);
 
-  /// The odometry's clock was set back: shifts all stored stamps by this much.
+  /// The odometry's clock was set back, or forward if negative: shifts all stored stamps by this much.
   void set_clock_back(std::int64_t by_ns);
 
   const LocalizedPose& latest() const noexcept { return latest_; }
