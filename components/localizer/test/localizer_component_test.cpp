@@ -167,6 +167,19 @@ TEST_F(LocalizerOnTopics, DoesNotKnowWhereItIsInAMapOfAnEarlierDayUntilTwoPanora
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), expected.y(), 0.1);
 }
 
+TEST_F(LocalizerOnTopics, GoesOnWhenOdometryWasRestartedNearItsOrigin) {
+  load();
+  drive(0, 50);
+  // It is silent for 2 s, and begins at 0 again.
+  for (int i = 100; i < 112; ++i) publish_odometry(i, at(0.2 * (i - 100), 0.0, 0.0), 1e-4 + 1e-4 * (i - 100));
+  EXPECT_TRUE(harness_.log_contains("restarted from another origin"));
+  const auto& last = enhanced_.back()->pose();
+  const double sigma_m = std::sqrt(last.covariance()[0]);
+  EXPECT_GT(sigma_m, 3.0) << "of a vehicle whose motion is unknown for 2 s";
+  EXPECT_NEAR(last.pose().position().x(), 22.2, sigma_m);
+  EXPECT_EQ(states_.back()->state(), states::TRACKING);
+}
+
 TEST_F(LocalizerOnTopics, SaysThatTheLandmarksMayBeOfAnotherPlace) {
   load();
   publish_landmark(9, kBegin_ns - 86'400'000'000'000, at(300.0, 100.0, 1.0));

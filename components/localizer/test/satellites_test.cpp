@@ -43,9 +43,10 @@ class Satellites : public ::testing::Test {
   }
   static Eigen::Vector3d in_enu(const Eigen::Vector3d& map_m) { return {-map_m.y(), map_m.x(), map_m.z()}; }
 
-  void publish_odometry(int step) {
+  /// `back`: steps by which the clock was set back.
+  void publish_odometry(int step, int back = 0) {
     nav_msgs::msg::Odometry odometry;
-    odometry.header().stamp(conversions::to_stamp(stamp(step)));
+    odometry.header().stamp(conversions::to_stamp(stamp(step - back)));
     odometry.header().frame_id("odom");
     odometry.child_frame_id("base_link");
     odometry.pose().pose(conversions::to_pose(pose(step)));
@@ -119,6 +120,17 @@ TEST_F(Satellites, GiveLatitudeAndLongitudeOfTheVehicleAndTheTransformToTheMap) 
   // The frame begins at the first antenna position.
   const Eigen::Vector3d first_m = in_enu(pose(0) * antenna_m_);
   EXPECT_LT((*map_from_enu * (Eigen::Vector3d(-10, 20, 0) - first_m) - Eigen::Vector3d(20, 10, 0)).norm(), 0.2);
+}
+
+TEST_F(Satellites, AreNotUsedIfTheyWaitedFromBeforeTheClockWasSetBack) {
+  publish_antenna();
+  drive(0, 200);
+  harness_.publish(topics::kGnssFix, fix(205));
+  for (int i = 200; i < 260; ++i) publish_odometry(i, 40);  // up to step 219 of the time before
+  const auto& last = *enhanced_.back();
+  EXPECT_EQ(conversions::stamp_ns(last), stamp(219));
+  const Eigen::Vector3d here_m = plane_.enu({last.latitude(), last.longitude(), last.altitude()});
+  EXPECT_LT((here_m - in_enu(pose(259).translation())).norm(), 0.5);
 }
 
 TEST_F(Satellites, KeepWhereTheMapIsOnEarth) {
