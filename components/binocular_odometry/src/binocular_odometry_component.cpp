@@ -108,8 +108,7 @@ class BinocularOdometryComponent final : public runtime::Component {
       }
     }
     // For a late pair only the quality is published, no pose.
-    const bool is_late = last_stamp_ns_ && estimate.stamp_ns <= *last_stamp_ns_;
-    if (is_late && !estimate.quality.reliable) return;
+    if (frame.is_late) return;
     const auto odometry =
         to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame);
     if (tf_) tf_->publish(to_transform(odometry));

@@ -52,6 +52,10 @@ class MotionStage::Implementation {
     result.quality.tracked = frame.tracked;
     result.quality.matched = frame.matched;
     result.quality.lean_sigma_rad_per_m = lean_sigma_rad_per_m_;
+    if (frame.is_late) {
+      stay(frame, result);
+      return result;
+    }
     const std::int64_t since_last_ns = interval(frame.stamp_ns, last_stamp_ns_);
     const std::int64_t since_good_ns = interval(frame.stamp_ns, good_stamp_ns_);
     last_stamp_ns_ = frame.stamp_ns;
@@ -166,6 +170,13 @@ class MotionStage::Implementation {
       return std::nullopt;
     }
     return motion;
+  }
+
+  /// A late or repeated frame tells nothing of the time since the last one, so that nothing changes for the next.
+  void stay(const TrackedFrame& frame, OdometryEstimate& result) const {
+    result.odom_from_left = published_odom_from_left_;
+    result.odom_from_left_covariance = published_covariance_;
+    result.quality.reason = frame.fault;
   }
 
   void start(const TrackedFrame& frame, OdometryEstimate& result) {

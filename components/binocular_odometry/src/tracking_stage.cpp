@@ -17,6 +17,7 @@
 #include "motion_model.hpp"
 #include "pair_check.hpp"
 #include "panvo/vision/stereo_matcher.hpp"
+#include "stamp_check.hpp"
 #include "stereo_pyramids.hpp"
 #include "swap_check.hpp"
 #include "track.hpp"
@@ -60,7 +61,7 @@ struct Arrivals {
   explicit Arrivals(const vision::PinholeCamera& camera) : pairs(camera) {}
 
   PairCheck pairs;
-  std::optional<std::int64_t> last_stamp_ns;
+  StampCheck stamps;
 };
 
 /// Tracks of the last good frame in the next one, and the motion between the two.
@@ -110,7 +111,9 @@ class TrackingStage::Implementation {
   TrackedFrame track(const StereoFrame& frame) {
     TrackedFrame result;
     result.stamp_ns = frame.stamp_ns;
-    result.fault = find_fault(frame).value_or("");
+    const auto late = arrivals_.stamps.find_fault(frame.stamp_ns);
+    result.is_late = late.has_value();
+    result.fault = late ? *late : find_fault(frame).value_or("");
     remember_arrival(frame);
     if (!result.fault.empty()) return result;
 
@@ -152,17 +155,13 @@ class TrackingStage::Implementation {
  private:
   std::optional<std::string> find_fault(const StereoFrame& frame) const {
     const Stage stage(observer_, "check");
-    if (arrivals_.last_stamp_ns && frame.stamp_ns <= *arrivals_.last_stamp_ns) {
-      return "stamp " + std::to_string(frame.stamp_ns) + " ns is not later than the previous stamp, " +
-             std::to_string(*arrivals_.last_stamp_ns) + " ns";
-    }
     return arrivals_.pairs.find_fault(frame);
   }
 
-  /// Of bad frames, too: if a recording restarts, only its first frame is lost.
+  /// Of bad frames, too.
   void remember_arrival(const StereoFrame& frame) {
     arrivals_.pairs.remember(frame);
-    arrivals_.last_stamp_ns = frame.stamp_ns;
+    arrivals_.stamps.remember(frame.stamp_ns);
   }
 
   StereoPyramids build_pyramids(const StereoFrame& frame) const {

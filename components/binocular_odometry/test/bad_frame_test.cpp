@@ -104,9 +104,72 @@ TEST_F(BadFrame, RightEyeIsOfAnotherMoment) {
   expect_fault(frame_, "left and right images do not match");
 }
 
-TEST_F(BadFrame, StampGoesBack) {
-  frame_.stamp_ns -= 300'000'000;
-  expect_fault(frame_, "is not later than the previous stamp");
+/// Frames of earlier times among good ones at 5 m/s: no effect on pose and motion of the next.
+class LateFrames : public ::testing::Test {
+ protected:
+  static StereoFrame frame(int index) {
+    StereoFrame frame = drive()[static_cast<size_t>(index)];
+    frame.stamp_ns = 1'000'000'000 + index * 24'000'000;  // 0.12 m each
+    return frame;
+  }
+
+  void go_on_to(int last) {
+    for (; next_ <= last; ++next_) {
+      estimate_ = odometry_.step(frame(next_));
+      ASSERT_TRUE(estimate_.quality.reliable) << next_ << ": " << estimate_.quality.reason;
+      const Eigen::Isometry3d step = truth(std::max(0, next_ - 1)).inverse() * truth(next_);
+      EXPECT_LE((estimate_.previous_from_current.translation() - step.translation()).norm(),
+                0.05 * step.translation().norm())
+          << next_;
+      EXPECT_LT((estimate_.odom_from_left.translation() - truth(next_).translation()).norm(), 0.012) << next_;
+      EXPECT_LT(estimate_.previous_from_current_covariance.diagonal().head<3>().maxCoeff(), 0.01 * 0.01) << next_;
+    }
+  }
+
+  void expect_no_effect_of(int late) {
+    const OdometryEstimate during = odometry_.step(frame(late));
+    EXPECT_FALSE(during.quality.reliable);
+    EXPECT_THAT(during.quality.reason, HasSubstr("is not later than the previous stamp"));
+    EXPECT_EQ(during.odom_from_left.matrix(), estimate_.odom_from_left.matrix()) << "no jump";
+    EXPECT_EQ(during.odom_from_left_covariance, estimate_.odom_from_left_covariance);
+  }
+
+  BinocularOdometry odometry_{SyntheticScene::stereo(), {}};
+  OdometryEstimate estimate_;
+  int next_ = 0;
+};
+
+TEST_F(LateFrames, OneThatComesTwice) {
+  go_on_to(6);
+  expect_no_effect_of(6);
+  go_on_to(10);
+}
+
+TEST_F(LateFrames, OneThatIsOvertaken) {
+  go_on_to(6);
+  expect_no_effect_of(5);
+  go_on_to(10);
+}
+
+TEST_F(LateFrames, SeveralInARow) {
+  go_on_to(6);
+  for (int late = 4; late <= 6; ++late) expect_no_effect_of(late);
+  go_on_to(10);
+}
+
+TEST_F(LateFrames, BlackOnesAfterASetClockAreNoLateFrames) {
+  go_on_to(6);
+  const auto step_black = [&](int index, std::int64_t back_ns) {
+    StereoFrame black = frame(index);
+    black.left = cv::Mat(240, 320, CV_8UC1, cv::Scalar(0));
+    black.stamp_ns -= back_ns;
+    return odometry_.step(black);
+  };
+  step_black(7, 900'000'000);
+  const auto first = step_black(8, 900'000'000), second = step_black(9, 900'000'000);
+  EXPECT_THAT(second.quality.reason, HasSubstr("left image is black"));
+  EXPECT_GT(first.odom_from_left_covariance.trace(), estimate_.odom_from_left_covariance.trace());
+  EXPECT_GT(second.odom_from_left_covariance.trace(), first.odom_from_left_covariance.trace());
 }
 
 /// Online calibration must not depend on the content of a bad frame.

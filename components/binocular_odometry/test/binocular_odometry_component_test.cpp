@@ -218,6 +218,27 @@ TEST_F(BinocularOdometryComponent, APairThatComesLateHasItsQualityButNoPose) {
   EXPECT_FALSE(quality_.back()->reliable());
 }
 
+TEST_F(BinocularOdometryComponent, APairThatComesTwiceOrLateDoesNotChangeTheNextTwist) {
+  load();
+  publish_infos();
+  publish_mounting();
+  const auto publish = [this](int index) {
+    StereoFrame frame = SyntheticScene::frame(index);
+    frame.stamp_ns = 1'000'000'000 + index * 24'000'000;  // 5 m/s
+    publish_pair(frame);
+  };
+  for (const int index : {0, 1, 2, 3, 4, 4, 5, 6, 5, 7, 8, 6, 7, 8, 9}) publish(index);
+  ASSERT_THAT(odometry_, SizeIs(10));
+  EXPECT_THAT(quality_, SizeIs(15));
+  for (std::size_t i = 1; i < odometry_.size(); ++i) {
+    EXPECT_NEAR(odometry_[i]->twist().twist().linear().x(), 5.0, 0.25) << i;
+    const Eigen::Isometry3d expected =
+        base_from_left() * SyntheticScene::world_from_left(static_cast<int>(i)) * base_from_left().inverse();
+    const auto pose = conversions::to_isometry(odometry_[i]->pose().pose());
+    EXPECT_LT((pose->translation() - expected.translation()).norm(), 0.01) << i;
+  }
+}
+
 TEST_F(BinocularOdometryComponent, RefusesAParameterOutOfItsRange) {
   EXPECT_ANY_THROW(load({{"tracking.front_end", "surf"}}));
   EXPECT_ANY_THROW(load({{"tracking.max_feature", "100"}}));

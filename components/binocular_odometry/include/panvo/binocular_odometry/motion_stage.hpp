@@ -26,6 +26,7 @@ class MotionStage {
 
   /// Pose and motion of the next frame. If the motion cannot be estimated, the pose is predicted with the last motion,
   /// marked unreliable with the reason, and its covariance grows; the next frame is matched with the last good frame.
+  /// A late frame gets the last pose, marked unreliable, and has no effect on the next.
   OdometryEstimate estimate(const TrackedFrame& frame);
 
   /// Points of the last frame; empty if its motion could not be estimated.

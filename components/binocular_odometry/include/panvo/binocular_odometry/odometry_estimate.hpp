@@ -18,8 +18,8 @@ struct Quality {
   double inlier_ratio = 0.0;          ///< inliers per candidate
   double residual_px = 0.0;           ///< RMS reprojection error of the inliers
   double lean_sigma_rad_per_m = 0.0;  ///< of a constant turn per metre, which the covariances do not contain
-  bool reliable = false;              ///< true: measured; false: predicted with the last motion
-  std::string reason;                 ///< why not reliable, with figures ("9 inliers of 20 needed"); empty if reliable
+  bool reliable = false;  ///< true: measured; false: predicted with the last motion, or the last pose for a late frame
+  std::string reason;     ///< why not reliable, with figures ("9 inliers of 20 needed"); empty if reliable
 };
 
 /// Estimate for one frame. Coordinate frames are left rectified optical frames; odom is that of the first image.

@@ -39,6 +39,7 @@ struct TrackedFrame {
   double row_misalignment_px = 0.0;  ///< current estimate of the largest row error of the right image
   double disparity_offset_px = 0.0;  ///< current estimate of the common disparity error; not subtracted
   std::string fault;                 ///< why the frame is unusable; empty if it is usable
+  bool is_late = false;              ///< the fault is a stamp that is not later than those before
 };
 
 }  // namespace panvo::binocular_odometry
