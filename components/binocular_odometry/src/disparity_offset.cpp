@@ -27,7 +27,8 @@ constexpr double kLossScale = 2.0;    // standard deviations
 
 Eigen::Isometry3d DisparityOffset::learn(const vision::RectifiedStereo& stereo, std::span<const FramePair> points,
                                          Eigen::Isometry3d current_from_previous) {
-  variance_px2_ += kStep_px * kStep_px;
+  // Cameras at rest show nothing of the offset, which is never less certain than that of an unknown calibration.
+  variance_px2_ = std::min(variance_px2_ + kStep_px * kStep_px, kFirstSigma_px * kFirstSigma_px);
   const vision::CauchyLoss loss(kLossScale);
   const double fb = stereo.camera.fx * stereo.baseline_m;
   const Eigen::Isometry3d first_idea = current_from_previous;

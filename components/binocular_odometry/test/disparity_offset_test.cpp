@@ -68,6 +68,17 @@ TEST(DisparityOffset, StaysAsItIsWhileTheCameraIsAtRest) {
   EXPECT_NEAR(offset.px(), known_px, 0.1);
 }
 
+TEST(DisparityOffset, IsNotLessCertainAfterALongRestThanAtFirst) {
+  std::mt19937 random(3);
+  const auto seen = points(random, kMotion, 0.6);
+  DisparityOffset fresh, rested;
+  for (int frame = 0; frame < 100000; ++frame) rested.learn(kStereo, {}, Eigen::Isometry3d::Identity());  // an hour
+  fresh.learn(kStereo, seen, kMotion);
+  rested.learn(kStereo, seen, kMotion);
+  EXPECT_NEAR(rested.px(), fresh.px(), 1e-6);
+  EXPECT_GT(std::abs(fresh.px()), 0.01) << "they learn";
+}
+
 TEST(DisparityOffset, LearnsNothingFromTooFewPoints) {
   DisparityOffset offset;
   std::mt19937 random(3);
