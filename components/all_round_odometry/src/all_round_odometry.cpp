@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kHistory_s = 6.0;  // longer than a panorama serves as reference
 constexpr double kMaxGap_s = 0.5;   // between two stereo poses: a vehicle may turn within a longer one
-constexpr double kMaxSpeed = 70.0;  // m/s: faster than any vehicle
 constexpr int kMaxUnreachable = 5;  // consecutive poses: the stereo odometry was restarted with another origin
 // Share of the points that agree with the stereo odometry: it is usually above 0.8. Fewer contradict it, if clearly more
 // agree on another motion.
@@ -82,9 +81,14 @@ bool AllRoundOdometry::is_unreachable(const StereoPose& stereo) {
 }
 
 void AllRoundOdometry::add(PanoramaPoints panorama, bool is_stereo_silent) {
+  const auto order = panorama_stamps_.add(panorama.stamp_ns);
+  if (order == vision::StampOrder::kNotLater) return;
+  if (order == vision::StampOrder::kSetBack) {
+    clock_search_.forget_turns();
+    forget_panoramas();
+  }
   search_clock(panorama);
   set_back(panorama, vision::to_ns(ahead_s_));
-  if (panorama_ns_ && panorama.stamp_ns <= *panorama_ns_) return;
   is_stereo_silent_ = is_stereo_silent;
   panorama_ns_ = panorama.stamp_ns;
   panoramas_.push_back(std::move(panorama));
@@ -101,9 +105,14 @@ void AllRoundOdometry::search_clock(const PanoramaPoints& received) {
   const auto found = clock_search_.find(stereo_.back().stamp_ns, turns_of_stereo());
   if (!found || std::abs(*found - ahead_s_) < kOtherClock * vision::ClockSearch::kSigma_s) return;
   ahead_s_ = *found;
+  forget_panoramas();
+}
+
+/// Those so far are of other times.
+void AllRoundOdometry::forget_panoramas() {
   clock_doubt_.forget();
   motion_ = PanoramicMotion(base_from_camera_);
-  last_.reset();
+  if (!blind_) last_.reset();
   panoramas_.clear();
   panorama_ns_.reset();
 }
@@ -123,7 +132,7 @@ void AllRoundOdometry::doubt_clock(const PanoramaPoints& panorama) {
   const std::int64_t ahead_ns = vision::to_ns(ahead_s_);  // already subtracted
   const auto turns = turns_of_stereo();
   const auto turn = turns(from_ns, to_ns);
-  const bool is_other = turn && std::abs(turn_in(panorama) - turn->change_rad) > kSameTurn_rad;
+  const bool is_other = turn && std::abs(turn_beyond(turn->change_rad, panorama)) > kSameTurn_rad;
   if (!is_other) clock_doubt_.agree(to_ns + ahead_ns);
   is_clock_doubtful_ = !clock_search_.has_found() ||
                        (is_other && clock_doubt_.add(from_ns + ahead_ns, to_ns + ahead_ns, turn_in(panorama),
@@ -230,6 +239,7 @@ void AllRoundOdometry::measure(const PanoramaPoints& panorama, std::int64_t befo
   ready_.push_back(
       {panorama.stamp_ns, last_->odometry.odom_from_base, last_->odometry.covariance, true, step->agreeing_share});
   emitted_ns_ = sure_ns_ = panorama.stamp_ns;
+  emitted_ = last_->odometry;
 }
 
 void AllRoundOdometry::advance(const Eigen::Isometry3d& before_from_now, const vision::Matrix6d& covariance) {
@@ -268,6 +278,7 @@ void AllRoundOdometry::emit(const StereoPose& stereo) {
   const Pose pose = shifted({stereo.odom_from_base, stereo.covariance});
   ready_.push_back({stereo.stamp_ns, pose.odom_from_base, pose.covariance, stereo.is_reliable, std::nullopt});
   emitted_ns_ = stereo.stamp_ns;
+  emitted_ = pose;
   if (stereo.is_reliable) sure_ns_ = stereo.stamp_ns;
 }
 

@@ -56,11 +56,11 @@ class AllRoundOdometryComponent final : public runtime::Component {
       if (++refused_ < kMaxRefused) {
         return refuse(context_.resolved_name(topics::kOdometryBinocular), "is not later than the previous one");
       }
-      context_.log().warn("the clock of {} was set back: restarting",
+      context_.log().warn("the clock of {} was set back: learning distances again",
                           context_.resolved_name(topics::kOdometryBinocular));
-      odometry_.emplace(parameters_, base_from_camera_);
+      odometry_->begin_again(stereo, refused_);
       before_.reset();
-      odometry_->add(stereo);
+      stereo_ = {{stereo.stamp_ns, joined}};
     }
     refused_ = 0;
     publish();

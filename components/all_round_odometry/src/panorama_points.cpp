@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/all_round_odometry/panorama_points.hpp"
 
+#include "panvo/vision/angle.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::all_round_odometry {
@@ -19,6 +20,10 @@ PanoramaPoints turned(PanoramaPoints panorama, const Eigen::Matrix3d& by) {
 double turn_in(const PanoramaPoints& panorama) {
   const Eigen::Matrix3d then_from_now = panorama.now_from_then.transpose();
   return vision::so3_log(then_from_now).z();
+}
+
+double turn_beyond(double turn_rad, const PanoramaPoints& panorama) {
+  return vision::wrapped(turn_in(panorama) - turn_rad);
 }
 
 void set_back(PanoramaPoints& panorama, std::int64_t by_ns) {

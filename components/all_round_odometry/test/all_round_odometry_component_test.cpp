@@ -26,14 +26,15 @@ class AllRoundOdometryComponentTest : public ::testing::Test {
   }
 
   void publish_stereo(double panorama, bool is_reliable) {
-    const auto stamp = conversions::to_stamp(Park::stamp_ns(0) + std::llround(panorama * double(kInterval_ns)));
+    const auto stamp =
+        conversions::to_stamp(Park::stamp_ns(0) + std::llround(panorama * double(kInterval_ns)) - back_ns_);
     panvo_msgs::msg::OdometryQuality quality;
     quality.header().stamp(stamp);
     quality.reliable(is_reliable);
     quality.inlier_ratio(0.7);
     quality.lean_sigma_rad_per_m(5e-4);
     harness_.publish(topics::kOdometryQuality, quality);
-    if (is_reliable) last_ = Park::vehicle(panorama);
+    if (is_reliable) last_ = stereo_from_odom_ * Park::vehicle(panorama);
     nav_msgs::msg::Odometry odometry;
     odometry.header().stamp(stamp);
     odometry.header().frame_id("odom");
@@ -48,12 +49,12 @@ class AllRoundOdometryComponentTest : public ::testing::Test {
   void publish_points(int now) {
     const auto seen = park_.seen(now, Park::references(now));
     panvo_msgs::msg::PanoramaPoints message;
-    message.header().stamp(conversions::to_stamp(seen.stamp_ns));
+    message.header().stamp(conversions::to_stamp(seen.stamp_ns - back_ns_));
     message.header().frame_id("panorama");
     message.now_from_then(conversions::to_pose(Eigen::Isometry3d(seen.now_from_then)).orientation());
     for (const PointTracks& tracks : seen.tracks) {
       panvo_msgs::msg::PointTracks said;
-      said.from_stamp(conversions::to_stamp(tracks.from_ns));
+      said.from_stamp(conversions::to_stamp(tracks.from_ns - back_ns_));
       for (const Sighting& sighting : tracks.sightings) {
         panvo_msgs::msg::TrackedPoint point;
         point.id(static_cast<std::uint32_t>(sighting.id));
@@ -87,7 +88,8 @@ class AllRoundOdometryComponentTest : public ::testing::Test {
   const std::vector<std::shared_ptr<const panvo_msgs::msg::OdometryQuality>>& quality_ =
       harness_.collect(topics::kOdometryAllRoundQuality);
   Park park_{1, 1e-4};
-  Eigen::Isometry3d last_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d last_ = Eigen::Isometry3d::Identity(), stereo_from_odom_ = last_;
+  std::int64_t back_ns_ = 0;  // all clocks
   vision::Matrix6d covariance_ = 1e-6 * vision::Matrix6d::Identity();
 };
 
@@ -150,6 +152,26 @@ TEST_F(AllRoundOdometryComponentTest, StartsAnewIfTheClockIsSetBack) {
   EXPECT_TRUE(harness_.log_contains("was set back"));
   EXPECT_EQ(odometry_.back()->header().stamp(),
             conversions::to_stamp(Park::stamp_ns(0) + std::llround(0.25 * double(kInterval_ns))));
+}
+
+TEST_F(AllRoundOdometryComponentTest, GoesOnFromTheLastPoseIfTheClockIsSetBack) {
+  publish_mounting(kCamera);
+  drive(1, 12, true);
+  drive(13, 30, false);
+  stereo_from_odom_ = last_ * Park::vehicle(30).inverse();  // 18 m are lost
+  drive(31, 36, true);
+  ASSERT_LT(error_m(36), 0.3);
+  const double before_m2 = odometry_.back()->pose().covariance()[0];
+  back_ns_ = 600'000'000'000;
+  drive(37, 38, true);
+  EXPECT_TRUE(harness_.log_contains("was set back"));
+  EXPECT_EQ(odometry_.back()->header().stamp(), conversions::to_stamp(Park::stamp_ns(38) - back_ns_));
+  EXPECT_LT(error_m(38), 0.3);
+  EXPECT_GE(odometry_.back()->pose().covariance()[0], before_m2);
+  drive(39, 50, true);
+  drive(51, 60, false);
+  EXPECT_LT(error_m(60), 0.6) << "panoramas are used again";
+  EXPECT_TRUE(quality_.back()->reliable());
 }
 
 }  // namespace

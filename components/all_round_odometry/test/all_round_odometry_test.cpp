@@ -42,22 +42,40 @@ class Drive : public ::testing::Test {
 
   void add_stereo(double at, Stereo stereo) {
     if (stereo == Stereo::kSilent) return;
+    say_stereo(at, stereo);
+    EXPECT_TRUE(odometry_.add(said_));
+  }
+
+  void say_stereo(double at, Stereo stereo) {
     const Eigen::Isometry3d step = Park::vehicle(at - 1.0 / kFrames).inverse() * Park::vehicle(at);
     if (stereo == Stereo::kGood) said_.odom_from_base = said_.odom_from_base * step;
     // A lorry that drives ahead at nearly the same speed.
     if (stereo == Stereo::kDeceived)
       said_.odom_from_base = said_.odom_from_base * vision::se3_exp(0.1 * vision::se3_log(step));
-    said_.stamp_ns = Park::stamp_ns(0) + std::llround(at * static_cast<double>(kInterval_ns));
+    said_.stamp_ns = Park::stamp_ns(0) + std::llround(at * static_cast<double>(kInterval_ns)) - back_ns_;
     said_.is_reliable = stereo != Stereo::kBlind;
     said_.covariance += (said_.is_reliable ? 1e-6 : 0.01) * vision::Matrix6d::Identity();
-    EXPECT_TRUE(odometry_.add(said_));
   }
 
-  static double panorama_of(const AllRoundPose& pose) {
-    return static_cast<double>(pose.stamp_ns - Park::stamp_ns(0)) / static_cast<double>(kInterval_ns);
+  /// All clocks are set back while the stereo camera measures: first, poses are refused. The path of panorama `now`.
+  void set_back(std::int64_t by_ns, int now) {
+    back_ns_ += by_ns;
+    late_ns_ -= by_ns;
+    for (int frame = 1; frame <= kFrames; ++frame) {
+      say_stereo(now - 1 + frame / static_cast<double>(kFrames), Stereo::kGood);
+      EXPECT_FALSE(odometry_.add(said_));
+    }
+    odometry_.begin_again(said_, kFrames);
+    const auto pose = odometry_.next();
+    ASSERT_TRUE(pose);
+    poses_.push_back(*pose);
   }
 
-  static double error_m(const AllRoundPose& pose) {
+  double panorama_of(const AllRoundPose& pose) const {
+    return static_cast<double>(pose.stamp_ns + back_ns_ - Park::stamp_ns(0)) / static_cast<double>(kInterval_ns);
+  }
+
+  double error_m(const AllRoundPose& pose) const {
     return (pose.odom_from_base.translation() - Park::vehicle(panorama_of(pose)).translation()).norm();
   }
 
@@ -69,6 +87,7 @@ class Drive : public ::testing::Test {
   AllRoundOdometry odometry_{{}, kCamera};
   StereoPose said_;
   std::int64_t late_ns_ = 0, late_since_ns_ = 0;                    // stamps of the panoramas
+  std::int64_t back_ns_ = 0;                                        // stamps of the stereo camera
   Eigen::Matrix3d stated_from_base_ = Eigen::Matrix3d::Identity();  // of the camera
   std::vector<AllRoundPose> poses_;
 };
@@ -281,6 +300,64 @@ TEST_F(Drive, GoesOnFromAnotherOriginOfTheStereoOdometry) {
   EXPECT_EQ(poses_.back().odom_from_base.matrix(), said_.odom_from_base.matrix());
   EXPECT_EQ(poses_.size(), 20U * kFrames);
 }
+
+class SetClock : public Drive, public ::testing::WithParamInterface<std::int64_t> {};
+
+TEST_P(SetClock, DoesNotMoveThePath) {
+  go(1, 12, Stereo::kGood);
+  go(13, 22, Stereo::kBlind);
+  go(23, 30, Stereo::kGood);
+  const AllRoundPose before = poses_.back();
+  const double error_before_m = error_m(before);
+  ASSERT_GT((before.odom_from_base.translation() - said_.odom_from_base.translation()).norm(), 5.0) << "shifted";
+  set_back(GetParam(), 31);
+  EXPECT_NEAR(panorama_of(poses_.back()), 31.0, 1e-6);
+  EXPECT_NEAR(error_m(poses_.back()), error_before_m, 0.2) << "less than one step";
+  EXPECT_GE(poses_.back().covariance.trace(), before.covariance.trace());
+  go(32, 44, Stereo::kGood);
+  EXPECT_NEAR(error_m(poses_.back()), error_before_m, 0.2);
+  go(45, 54, Stereo::kBlind);
+  EXPECT_TRUE(poses_.back().agreeing_share) << "panoramas are used again";
+  EXPECT_LT(error_m(poses_.back()), error_before_m + 0.3);
+}
+
+TEST_P(SetClock, DoesNotMoveThePathWhilePanoramasContinueIt) {
+  go(1, 12, Stereo::kGood);
+  go(13, 22, Stereo::kBlind);
+  const AllRoundPose before = poses_.back();
+  const double error_before_m = error_m(before);
+  set_back(GetParam(), 23);
+  EXPECT_NEAR(error_m(poses_.back()), error_before_m, 0.2);
+  EXPECT_GE(poses_.back().covariance.trace(), before.covariance.trace());
+}
+
+TEST_P(SetClock, DoesNotMoveThePathIfTheStereoOdometryWasRestartedToo) {
+  go(1, 20, Stereo::kGood);
+  const AllRoundPose before = poses_.back();
+  said_ = {};
+  set_back(GetParam(), 21);
+  const double moved_m = (poses_.back().odom_from_base.translation() - before.odom_from_base.translation()).norm();
+  EXPECT_LT(moved_m, 0.2);
+  EXPECT_GT(poses_.back().covariance.trace(), before.covariance.trace() + 1.0) << "1 m is missing";
+  go(22, 30, Stereo::kGood);
+  EXPECT_LT(error_m(poses_.back()), 2.0);
+}
+
+TEST_P(SetClock, OfThePanoramicCameraAlone) {
+  go(1, 12, Stereo::kGood);
+  late_ns_ = GetParam();
+  late_since_ns_ = Park::stamp_ns(13);
+  go(13, 20, Stereo::kGood);
+  late_ns_ = 0;  // back
+  go(21, 40, Stereo::kGood);
+  EXPECT_EQ(poses_.size(), 40U * kFrames);
+  go(41, 50, Stereo::kBlind);
+  EXPECT_TRUE(poses_.back().agreeing_share) << "panoramas are used again";
+  EXPECT_LT(error_m(poses_.back()), 0.5);
+  expect_increasing_stamps();
+}
+
+INSTANTIATE_TEST_SUITE_P(By, SetClock, ::testing::Values(10'000'000'000, 600'000'000'000));
 
 TEST_F(Drive, RefusesStampsThatDoNotIncrease) {
   go(1, 2, Stereo::kGood);

@@ -96,12 +96,13 @@ std::optional<FusedPose> OdometryFusion::next() {
   const StereoPose stereo = waiting_.front();
   waiting_.pop_front();
   if (latest_) return step(stamp_ns, stereo);
-  filter_.begin_at(stereo.odom_from_base, stereo.covariance);
+  const Begin begin = begin_.value_or(Begin{stereo.odom_from_base, stereo.covariance});
+  filter_.begin_at(begin.odom_from_base, begin.covariance);
   previous_stereo_ = stereo;
   FusedPose first;
   first.stamp_ns = stamp_ns;
-  first.odom_from_base = stereo.odom_from_base;
-  first.covariance = stereo.covariance;
+  first.odom_from_base = begin.odom_from_base;
+  first.covariance = begin.covariance;
   first.is_reliable = stereo.is_reliable;
   first.uses_cameras = true;
   latest_ = first;

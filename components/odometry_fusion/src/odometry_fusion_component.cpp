@@ -65,11 +65,13 @@ class OdometryFusionComponent final : public runtime::Component {
       if (++refused_ < kMaxRefused) {
         return refuse(topics::kOdometryBinocular.name, "is not later than the previous one, or not finite");
       }
-      context_.log().warn("the clock of {} was set back: restarting the fusion",
+      if (!fusion_.begin_again(stereo, refused_)) {
+        return refuse(topics::kOdometryBinocular.name, "is not finite");
+      }
+      context_.log().warn("the clock of {} was set back: sensors are on trial again",
                           name_of(topics::kOdometryBinocular.name));
-      fusion_ = OdometryFusion(parameters_);
       predicted_ns_ = INT64_MIN;
-      fusion_.add(stereo);
+      qualities_.clear();
     }
     refused_ = 0;
     last_stereo_ = joined.odometry;

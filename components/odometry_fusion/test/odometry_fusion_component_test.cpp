@@ -36,8 +36,8 @@ class FusionComponent : public ::testing::Test {
     }
   }
 
-  static builtin_interfaces::msg::Time stamp(double t_s) {
-    return conversions::to_stamp(kBegin_ns + std::llround(t_s * 1e9));
+  builtin_interfaces::msg::Time stamp(double t_s) const {
+    return conversions::to_stamp(kBegin_ns + std::llround((t_s - back_s_) * 1e9));
   }
 
   void publish_stereo(double t_s, bool is_reliable) {
@@ -53,7 +53,8 @@ class FusionComponent : public ::testing::Test {
     odometry.header().stamp(stamp(t_s));
     odometry.header().frame_id("odom");
     odometry.child_frame_id("base_link");
-    odometry.pose().pose(conversions::to_pose(is_reliable ? truth_ : Eigen::Isometry3d::Identity()));
+    odometry.pose().pose(
+        conversions::to_pose(is_reliable ? stereo_from_odom_ * truth_ : Eigen::Isometry3d::Identity()));
     odometry.pose().covariance(conversions::to_array(covariance_));
     harness_.publish(topics::kOdometryBinocular, odometry);
   }
@@ -93,6 +94,8 @@ class FusionComponent : public ::testing::Test {
   std::string imu_frame_ = "imu_link";
   Eigen::Matrix3d imu_from_base_ = Eigen::Matrix3d::Identity();
   double imu_factor_ = 1.0;
+  double back_s_ = 0.0;  // all clocks
+  Eigen::Isometry3d stereo_from_odom_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d truth_ = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance_ = 1e-6 * vision::Matrix6d::Identity();
 };
@@ -179,6 +182,29 @@ TEST_F(FusionComponent, BeginsAnewWhenTheClockIsSetBack) {
   drive(0.0, 2.0);
   EXPECT_THAT(harness_.log(), Contains(HasSubstr("the clock of /odometry/binocular was set back")));
   EXPECT_GT(fused_.size(), before + 40);
+}
+
+TEST_F(FusionComponent, GoesOnFromTheLastPoseWhenTheClockIsSetBack) {
+  drive(0.0, 20.0);
+  drive(20.0, 25.0, false);
+  stereo_from_odom_ = truth_.inverse();  // its path goes on from the start
+  drive(25.0, 27.0);
+  ASSERT_LT(error_m(), 0.4);
+  double t_s = 27.0;
+  for (const double by_s : {10.0, 600.0}) {
+    const std::size_t before = fused_.size();
+    back_s_ += by_s;
+    drive(t_s, t_s + 2.0);
+    t_s += 2.0;
+    ASSERT_GT(fused_.size(), before + 40);
+    EXPECT_LT(error_m(), 0.4) << "the pose is 40 ms old";
+    for (std::size_t i = before; i < fused_.size(); ++i) {
+      const auto from = conversions::to_isometry(fused_[i - 1]->pose().pose());
+      const auto to = conversions::to_isometry(fused_[i]->pose().pose());
+      EXPECT_LT((to->translation() - from->translation()).norm(), i == before ? 1.1 : 0.25) << "4 poses are refused";
+      EXPECT_GE(fused_[i]->pose().covariance()[0], fused_[i - 1]->pose().covariance()[0]);
+    }
+  }
 }
 
 }  // namespace

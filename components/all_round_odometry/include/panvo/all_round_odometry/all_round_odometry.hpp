@@ -11,6 +11,7 @@
 #include "panvo/all_round_odometry/panoramic_motion.hpp"
 #include "panvo/vision/clock_search.hpp"
 #include "panvo/vision/pose.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 
 namespace panvo::all_round_odometry {
 
@@ -56,14 +57,19 @@ class AllRoundOdometry {
 
   /// In order of stamps; false, without effect, for a stamp not later than the last.
   bool add(const StereoPose& stereo);
+  /// The stereo odometry's clock was set back: forgets all panoramas, and begins again at this pose, where the path so
+  /// far leads. `refused`: poses since the last that was added.
+  void begin_again(const StereoPose& stereo, int refused);
   /// In order of stamps, each panorama; without tracks if it shows no motion. `is_stereo_silent`: do not wait for stereo
-  /// poses up to its stamp.
+  /// poses up to its stamp. Those of a clock that was set back are used after a few.
   void add(PanoramaPoints panorama, bool is_stereo_silent);
 
   /// The next pose, in order of stamps; nullopt if more input is needed.
   std::optional<AllRoundPose> next();
 
  private:
+  static constexpr double kMaxSpeed = 70.0;  // m/s: faster than any vehicle
+
   struct Pose {
     Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
     vision::Matrix6d covariance = vision::Matrix6d::Zero();
@@ -84,7 +90,9 @@ class AllRoundOdometry {
     double scale_variance;
   };
 
+  std::optional<Shift> continued(const StereoPose& stereo, int refused) const;
   bool is_unreachable(const StereoPose& stereo);
+  void forget_panoramas();
   void search_clock(const PanoramaPoints& received);
   vision::ClockSearch::Reference turns_of_stereo() const;
   void doubt_clock(const PanoramaPoints& panorama);
@@ -106,7 +114,7 @@ class AllRoundOdometry {
   std::optional<Pose> stereo_at(std::int64_t stamp_ns) const;
   std::optional<Eigen::Isometry3d> measured(std::int64_t from_ns, std::int64_t to_ns) const;
 
-  const Parameters parameters_;
+  Parameters parameters_;
   Eigen::Vector3d base_from_camera_;
   CameraRotation camera_rotation_;
   PanoramicMotion motion_;
@@ -118,6 +126,7 @@ class AllRoundOdometry {
   std::size_t held_ = 0;
   int unreachable_ = 0;                      // consecutive poses
   std::deque<PanoramaPoints> panoramas_;     // waiting for the stereo odometry
+  vision::StampSequence panorama_stamps_;    // as received
   std::optional<std::int64_t> panorama_ns_;  // stamp of the latest
   bool is_stereo_silent_ = false;
   std::optional<Shift> shift_;
@@ -127,6 +136,7 @@ class AllRoundOdometry {
   vision::Vector6d twist_ = vision::Vector6d::Zero();  // of the vehicle, m/s and rad/s
   std::int64_t sure_ns_ = INT64_MIN;                   // last pose with a measured motion
   std::int64_t emitted_ns_ = INT64_MIN;
+  Pose emitted_;
   std::deque<AllRoundPose> ready_;
 };
 

@@ -33,6 +33,8 @@ PanoramaPoints turned(PanoramaPoints panorama, const Eigen::Matrix3d& by);
 
 /// Turn to the left since the reference, rad. Precondition: there is one.
 double turn_in(const PanoramaPoints& panorama);
+/// That turn beyond another one, rad, in (-pi, pi]: both are known up to full turns.
+double turn_beyond(double turn_rad, const PanoramaPoints& panorama);
 
 /// Shifts all stamps back.
 void set_back(PanoramaPoints& panorama, std::int64_t by_ns);

@@ -49,6 +49,10 @@ class OdometryFusion {
   bool add(const GyroSample& sample);
   bool add(const WheelSample& sample);
 
+  /// The stereo odometry's clock was set back: forgets all samples and begins again at this pose, where the path so far
+  /// leads. `refused`: poses since the last that was added. False, without effect, if it is not finite.
+  bool begin_again(const StereoPose& stereo, int refused);
+
   /// The next pose, of a stereo pose or, if none come, of the wheels' and gyroscope's samples. nullopt: none yet. Call it
   /// until then after each add().
   std::optional<FusedPose> next();
@@ -90,6 +94,12 @@ class OdometryFusion {
     bool uses_gyro = false, uses_wheels = false;  // they are trusted, and measured
   };
 
+  struct Begin {
+    Eigen::Isometry3d odom_from_base;
+    vision::Matrix6d covariance;
+  };
+
+  Begin continued(const StereoPose& stereo, int refused) const;
   bool must_wait(std::optional<std::int64_t> latest_ns, std::int64_t stamp_ns, double clock_s) const;
   std::optional<std::int64_t> blind_until() const;
   Interval interval(std::int64_t from_ns, std::int64_t to_ns) const;
@@ -119,6 +129,7 @@ class OdometryFusion {
   Sensor<GyroSample, GyroTrial> gyro_;
   Sensor<WheelSample, WheelTrial> wheels_;
   SensorState wheel_yaw_;
+  std::optional<Begin> begin_;  // nullopt: at the first stereo pose
   std::deque<StereoPose> waiting_;
   std::optional<StereoPose> previous_stereo_;
   std::optional<FusedPose> latest_;
