@@ -152,5 +152,23 @@ INSTANTIATE_TEST_SUITE_P(All, FaultyGyro, testing::ValuesIn(kGyroFaults),
 INSTANTIATE_TEST_SUITE_P(All, FaultyWheels, testing::ValuesIn(kWheelFaults),
                          [](const auto& one) { return std::string(one.param.name); });
 
+TEST(FaultySensors, AreUsedAgainWhenTheirClockThatWasAheadIsSetBack) {
+  int predicted = 0;
+  Drive options{.duration_s = 60.0, .motion = town, .stereo_delay_ms = 20};
+  options.gyro_fault = [](double t_s, GyroSample& sample) {
+    if (t_s > 40.0 && t_s < 41.0) sample.stamp_ns += 600'000'000'000;
+  };
+  options.wheel_fault = [](double t_s, WheelSample& sample) {
+    if (t_s > 40.0 && t_s < 41.0) sample.stamp_ns += 600'000'000'000;
+  };
+  options.watch = [&](const OdometryFusion& fusion, double t_s, const Eigen::Isometry3d&) {
+    predicted += t_s > 42.0 && fusion.predicted();
+  };
+  int used = 0;
+  for (const auto& one : drive(options)) used += one.t_s > 42.0 && one.fused.uses_gyro && one.fused.uses_wheels;
+  EXPECT_GT(predicted, 17 * 200) << "of 18 s at 200 Hz";
+  EXPECT_GT(used, 17 * 25) << "of 18 s at 25 Hz";
+}
+
 }  // namespace
 }  // namespace panvo::odometry_fusion

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "panvo/odometry_fusion/sensor_data.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 
 namespace panvo::odometry_fusion {
 
@@ -21,8 +22,10 @@ class SampleWindow {
   /// `max_gap_s`: longest time between two samples across which the sensor counts as measuring.
   explicit SampleWindow(double max_gap_s) : max_gap_s_(max_gap_s) {}
 
-  /// False for a second sample of a stamp, and for one that forget_before() has passed.
+  /// False for a second sample of a stamp, and for one that forget_before() has passed. Drops the later ones if the
+  /// sensor's clock was ahead and was set back.
   bool add(const Sample& sample) {
+    if (stamps_.add(sample.stamp_ns) == vision::StampOrder::kSetBack) drop_after(sample.stamp_ns);
     if (sample.stamp_ns < begin_ns_) return false;
     const auto place = std::lower_bound(samples_.begin(), samples_.end(), sample.stamp_ns, is_earlier);
     if (place != samples_.end() && place->stamp_ns == sample.stamp_ns) return false;
@@ -61,10 +64,15 @@ class SampleWindow {
 
   void clear() {
     samples_.clear();
+    stamps_ = {};
     begin_ns_ = INT64_MIN;
   }
 
  private:
+  void drop_after(std::int64_t stamp_ns) {
+    while (!samples_.empty() && samples_.back().stamp_ns > stamp_ns) samples_.pop_back();
+  }
+
   static bool is_earlier(const Sample& sample, std::int64_t stamp_ns) { return sample.stamp_ns < stamp_ns; }
 
   static Sample at(const Sample& before, const Sample& after, std::int64_t stamp_ns) {
@@ -74,6 +82,7 @@ class SampleWindow {
   double max_gap_s_;
   std::int64_t begin_ns_ = INT64_MIN;
   std::deque<Sample> samples_;
+  vision::StampSequence stamps_;  // in order of arrival
 };
 
 }  // namespace panvo::odometry_fusion
