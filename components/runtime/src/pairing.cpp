@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pairing.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iterator>
 
@@ -15,17 +16,14 @@ void Pairing::take(int side, std::int64_t stamp_ns, const SamplePtr& sample) {
     Waiting& other = waiting_[1 - side];
     if (const auto found = find_partner(other, stamp_ns); found != other.end()) {
       partner_ns = found->first;
-      partner = found->second;
+      partner = found->second.sample;
       // Older waiting messages have no partner: topics arrive in order.
       drop_before(own, stamp_ns);
       drop_before(other, partner_ns);
       other.erase(found);
     } else {
-      own[stamp_ns] = sample;
-      if (own.size() > port_.depth) {
-        own.erase(own.begin());
-        worker_.count_dropped(port_);
-      }
+      own[stamp_ns] = {sample, held_++};
+      if (own.size() > port_.depth) drop_first(own);
     }
   }
   if (!partner) return;
@@ -49,6 +47,11 @@ void Pairing::drop_before(Waiting& waiting, std::int64_t stamp_ns) {
     waiting.erase(waiting.begin());
     worker_.count_dropped(port_);
   }
+}
+
+void Pairing::drop_first(Waiting& waiting) {
+  waiting.erase(std::ranges::min_element(waiting, {}, [](const auto& held) { return held.second.number; }));
+  worker_.count_dropped(port_);
 }
 
 }  // namespace panvo::runtime

@@ -89,6 +89,16 @@ TEST_F(ApproximatePairs, KeepFirstAndSecondApartWhicheverComesLast) {
   EXPECT_THAT(pairs_, ElementsAre(Pair(103, 100)));
 }
 
+TEST_F(ApproximatePairs, AreMadeAgainWhenTheClockIsSetBackWhileOneSideIsSilent) {
+  for (int i = 0; i < 25; ++i) left(500 + 20 * i);  // more than may wait
+  EXPECT_GT(dropped(), 0U);
+  for (const std::int64_t milliseconds : {100, 120, 140}) {
+    left(milliseconds);
+    right(milliseconds);
+  }
+  EXPECT_THAT(pairs_, ElementsAre(Pair(100, 100), Pair(120, 120), Pair(140, 140)));
+}
+
 TEST(PairTolerance, IsNotNegative) {
   ComponentHarness harness;
   ComponentDescription description;
