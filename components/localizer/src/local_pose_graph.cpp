@@ -27,10 +27,10 @@ vision::Matrix6d cut_covariance() {
 
 LocalPoseGraph::LocalPoseGraph(double start_sigma_m, double start_sigma_rad, double scale_sigma,
                                const GnssParameters& fixes)
-    : start_sigma_m_(start_sigma_m),
-      start_sigma_rad_(start_sigma_rad),
-      scale_sigma_(scale_sigma),
-      fix_parameters_(fixes) {}
+    : scale_sigma_(scale_sigma), fix_parameters_(fixes) {
+  start_.covariance.topLeftCorner<3, 3>() = start_sigma_m * start_sigma_m * Eigen::Matrix3d::Identity();
+  start_.covariance.bottomRightCorner<3, 3>() = start_sigma_rad * start_sigma_rad * Eigen::Matrix3d::Identity();
+}
 
 bool LocalPoseGraph::has_only_start() const {
   return has_started() &&
@@ -38,11 +38,11 @@ bool LocalPoseGraph::has_only_start() const {
 }
 
 void LocalPoseGraph::start(const OdometrySample& at) {
+  start_.map_from_base = at.pose.odom_from_base;
   Node node;
   node.at = at;
-  node.map_from_base = at.pose.odom_from_base;
-  node.covariance.topLeftCorner<3, 3>() = start_sigma_m_ * start_sigma_m_ * Eigen::Matrix3d::Identity();
-  node.covariance.bottomRightCorner<3, 3>() = start_sigma_rad_ * start_sigma_rad_ * Eigen::Matrix3d::Identity();
+  node.map_from_base = start_.map_from_base;
+  node.covariance = start_.covariance;
   nodes_.push_back(node);
 }
 
@@ -162,6 +162,12 @@ vision::Matrix6d LocalPoseGraph::common_covariance(const Eigen::Vector3d& positi
 
 void LocalPoseGraph::place(const Eigen::Isometry3d& map_from_former_map) {
   is_placed_ = true;
+  move(map_from_former_map);
+}
+
+void LocalPoseGraph::move(const Eigen::Isometry3d& map_from_former_map) {
+  start_.map_from_base = map_from_former_map * start_.map_from_base;
+  start_.covariance = vision::rotate_covariance(map_from_former_map.linear(), start_.covariance);
   for (auto& node : nodes_) {
     if (node.is_of_earlier_day) continue;
     node.map_from_base = map_from_former_map * node.map_from_base;

@@ -59,12 +59,7 @@ bool LocalPoseGraph::solve() {
     graph.edges.push_back(
         {seen, i, node.sighting.landmark_from_base, with_least_variance(node.sighting.covariance), true});
   }
-  if (!is_anchored) {  // the map starts with the journey
-    vision::Vector6d sigma;
-    sigma << Eigen::Vector3d::Constant(start_sigma_m_), Eigen::Vector3d::Constant(start_sigma_rad_);
-    graph.priors.push_back(
-        {order.front(), nodes_[order.front()].at.pose.odom_from_base, sigma.cwiseAbs2().asDiagonal()});
-  }
+  if (!is_anchored) graph.priors.push_back({order.front(), start_.map_from_base, start_.covariance});
   std::optional<std::pair<std::size_t, std::size_t>> pair;
   if (enu_) {
     add_fixes(graph, order);

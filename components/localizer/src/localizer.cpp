@@ -109,7 +109,7 @@ void Localizer::forget_start(const std::optional<PoseInMap>& last, std::string r
   is_joined_ = false;
   unlocated_reason_ = std::move(reason);
   if (last && graph_.has_started()) {
-    graph_.place(last->map_from_base * graph_.carried(chain_.latest()).map_from_base.inverse());
+    graph_.move(last->map_from_base * graph_.carried(chain_.latest()).map_from_base.inverse());
   }
   if (graph_.has_started()) latest_ = localized(chain_.latest());
 }

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "drive.hpp"
+
 namespace panvo::localizer {
 namespace {
 
@@ -83,6 +85,55 @@ TEST(LocalPoseGraph, SaysWhereItCannotBeSolved) {
   graph.add_known(known);
   ASSERT_TRUE(graph.add_pass(sighting_in_lap(1), in_lap(1), 20.0));
   EXPECT_FALSE(graph.solve());
+}
+
+/// After a crash with a last pose that is too old, 5 m from where the vehicle is: a lap with a landmark at metre 20, in
+/// the map of earlier landmarks. The drive begins at (50, 20) m of it, turned by 0.7 rad.
+struct RestartedLap {
+  RestartedLap() {
+    map_from_drive.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.7));
+    map_from_drive.translation() << 50.0, 20.0, 0.0;
+    localizer.add(drive.now());
+    localizer.add_known({9, -1, map_from_drive, variance(0.01)});
+    localizer.forget_start(PoseInMap{at_x(45.0), variance(1.0)}, "restarted after a crash");
+    for (int i = 1; i <= 219; ++i) {
+      localizer.add(drive.step());
+      if (i != 20) continue;
+      landmark = drive.truth;
+      localizer.add_built(1, drive.now().stamp_ns);
+    }
+  }
+
+  double error_by_m(const Eigen::Isometry3d& map_from_start) const {
+    return (localizer.latest().map_from_base.translation() - map_from_start * drive.truth.translation()).norm();
+  }
+
+  Eigen::Isometry3d map_from_drive = Eigen::Isometry3d::Identity(), landmark;
+  Drive drive{3};
+  Localizer localizer{of_known_scale()};
+};
+
+TEST(LocalPoseGraph, AppliesLandmarksOfAJourneyWhoseStartIsOnlyGuessed) {
+  RestartedLap lap;
+  EXPECT_GT(lap.error_by_m(at_x(45.0)), 2.0);  // drift of the odometry since the guessed start
+  const auto correction = lap.localizer.add(lap.drive.sight(1, lap.landmark));
+  EXPECT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
+  EXPECT_LT(lap.error_by_m(at_x(45.0)), 0.5);
+  EXPECT_EQ(lap.localizer.latest().state, State::kUnlocated);
+}
+
+TEST(LocalPoseGraph, PutsAJourneyWhoseStartWasGuessedWhereStoredLandmarksShowIt) {
+  RestartedLap lap;
+  ASSERT_EQ(lap.localizer.add(lap.drive.sight(1, lap.landmark)).kind, CorrectionKind::kApplied);
+  lap.localizer.add(lap.drive.sight(9, Eigen::Isometry3d::Identity()));
+  lap.localizer.add(lap.drive.step());
+  const auto correction = lap.localizer.add(lap.drive.sight(9, Eigen::Isometry3d::Identity()));
+  EXPECT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
+  EXPECT_LT(lap.error_by_m(lap.map_from_drive), 0.2);
+  EXPECT_EQ(lap.localizer.latest().state, State::kRelocalised);
+  const auto built = lap.localizer.landmarks().front();
+  EXPECT_EQ(built.id, 1U);
+  EXPECT_LT((built.map_from_base.translation() - lap.map_from_drive * lap.landmark.translation()).norm(), 0.5);
 }
 
 }  // namespace

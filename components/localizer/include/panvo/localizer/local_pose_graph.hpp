@@ -99,7 +99,9 @@ class LocalPoseGraph {
   /// recently seen landmark, or else of the scale and direction of this journey relative to its start.
   vision::Matrix6d common_covariance(const Eigen::Vector3d& position, double direction_sigma_rad) const;
 
-  /// Moves the whole journey in the map, once its place there is known.
+  /// Moves the whole journey, its start with it, to where it is assumed to have begun.
+  void move(const Eigen::Isometry3d& map_from_former_map);
+  /// The same once its place in the map is known by other means than its start, which from then on tells nothing.
   void place(const Eigen::Isometry3d& map_from_former_map);
   /// Cuts the odometry between the nodes around this time, as the vehicle was lifted.
   void cut(std::int64_t stamp_ns) { cuts_ns_.push_back(stamp_ns); }
@@ -150,7 +152,8 @@ class LocalPoseGraph {
   Eigen::Isometry3d way_between(const OdometryPose& from, const OdometryPose& to) const;
   vision::Matrix6d way_covariance(const OdometrySample& from, const OdometrySample& to) const;
 
-  double start_sigma_m_, start_sigma_rad_, scale_sigma_;
+  PoseInMap start_;  // what is known of the first node; its covariance is that of a new map
+  double scale_sigma_;
   GnssParameters fix_parameters_;
   TurnErrors turn_errors_;
   std::map<std::uint32_t, KnownLandmark> known_;
