@@ -124,13 +124,19 @@ void LocalPoseGraph::add_fixes(PoseGraph& graph, const std::vector<std::size_t>&
   for (std::size_t k = 0; k < fixes.size(); ++k) {
     const std::int64_t since_ns = stamp_ns(k == 0 ? 0 : k - 1), until_ns = stamp_ns(std::min(k + 1, fixes.size() - 1));
     const double share_s = 0.5e-9 * static_cast<double>(until_ns - since_ns);
+    const double alike = share_s > 0.0 ? fix_parameters_.correlation_s / share_s : 1.0;  // the only one has no time
     const auto& fix = *nodes_[fixes[k]].fix;
     graph.fixes.push_back({enu, fixes[k], fix.antenna_in_base_m, fix.velocity_in_base_m_s, fix.enu_m,
-                           fix.covariance * std::max(1.0, fix_parameters_.correlation_s / share_s)});
+                           fix.covariance * std::max(1.0, alike)});
   }
 }
 
 void LocalPoseGraph::set_enu(const Eigen::Isometry3d& map_from_enu, const std::optional<vision::Matrix6d>& covariance) {
+  const bool is_said = std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.said; });
+  if (enu_ && enu_->known && !covariance && !is_said) {  // nothing else showed where the journey is: that remains
+    start_ = {nodes_.front().map_from_base, nodes_.front().covariance};
+    is_placed_ = false;
+  }
   std::erase_if(nodes_, [](const Node& node) { return node.fix.has_value(); });
   enu_ = Enu{};
   enu_->map_from_enu = map_from_enu;

@@ -124,33 +124,51 @@ TEST(LocalizerWithSatellites, KeepThePositionWhenTheClockIsSetBack) {
   EXPECT_NEAR((after.covariance - before.covariance).norm(), std::sqrt(2.0) * 0.5 * 0.5, 0.02);
 }
 
-TEST(LocalizerWithSatellites, ShowWhereTheVehicleIsInTheMapOfAnEarlierJourney) {
-  Journey mapping(5, 1.0, 0.3);
-  mapping.go(400);
-  ASSERT_TRUE(mapping.localizer.has_enu());
-
-  GnssDrive second(6, 1.0, 0.3);
-  second.truth.translation() << 60.0, -25.0, 0.0;
-  second.truth.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, -2.0));
-  Localizer localizer(parameters());
-  localizer.add_known(
-      {1, -1, Eigen::Isometry3d(Eigen::Translation3d(500.0, 0.0, 0.0)), 1e-4 * vision::Matrix6d::Identity()});
-  localizer.set_known_enu(mapping.localizer.map_from_enu());
-  localizer.add(second.now());
-  for (int i = 1; i <= 120; ++i) {
-    localizer.add(second.step());
-    if (i == 20) {
-      EXPECT_EQ(localizer.latest().state, State::kUnlocated);
-    }
-    if (i % kFixEvery == 0) localizer.add(second.fix());
+/// A journey in the map of an earlier one, whose place on earth is known; its landmarks are not seen.
+struct SecondJourney : Journey {
+  SecondJourney() : Journey(6, 1.0, 0.3) {
+    Journey mapping(5, 1.0, 0.3);
+    mapping.go(400);
+    drive.truth.translation() << 60.0, -25.0, 0.0;
+    drive.truth.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, -2.0));
+    localizer.add_known(
+        {1, -1, Eigen::Isometry3d(Eigen::Translation3d(5000.0, 0.0, 0.0)), 1e-4 * vision::Matrix6d::Identity()});
+    localizer.set_known_enu(mapping.localizer.map_from_enu());
   }
-  const auto here = localizer.latest();
+};
+
+TEST(LocalizerWithSatellites, ShowWhereTheVehicleIsInTheMapOfAnEarlierJourney) {
+  SecondJourney second;
+  second.go(20);
+  EXPECT_EQ(second.localizer.latest().state, State::kUnlocated);
+  second.go(100);
+  const auto here = second.localizer.latest();
   EXPECT_EQ(here.state, State::kTracking);
-  const vision::Vector6d error = vision::pose_error(here.map_from_base, second.truth);
+  const vision::Vector6d error = vision::pose_error(here.map_from_base, second.drive.truth);
   EXPECT_LT(error.head<2>().norm(), 2.0);
   EXPECT_LT(std::abs(error(5)), 0.05);
   // 99.9 % of six degrees of freedom.
   EXPECT_LT(error.dot(here.covariance.ldlt().solve(error)), 22.5);
+}
+
+TEST(LocalizerWithSatellites, KeepThePlaceInTheMapWhenTheirFrameMoves) {
+  SecondJourney second;
+  second.go(400);
+  ASSERT_EQ(second.localizer.latest().state, State::kTracking);
+  const Eigen::Vector3d moved_m(20.0, 0.0, 0.0);
+  bool has_begun_anew = false;
+  for (int i = 1; i <= 400; ++i) {
+    second.localizer.add(second.drive.step());
+    GnssFix fix = second.drive.fix();
+    fix.enu_m += moved_m;
+    if (i % kFixEvery == 0) has_begun_anew |= second.localizer.add(fix).use == FixUse::kBegun;
+  }
+  EXPECT_TRUE(has_begun_anew);
+  const auto here = second.localizer.latest();
+  EXPECT_EQ(here.state, State::kTracking) << here.reason;
+  const vision::Vector6d error = vision::pose_error(here.map_from_base, second.drive.truth);
+  EXPECT_LT(error.dot(here.covariance.ldlt().solve(error)), 22.5);  // 99.9 % of six degrees of freedom
+  EXPECT_LT(vision::horizontal_sigma(here.covariance), 10.0);
 }
 
 TEST(LocalizerWithSatellites, KnowsThePositionOnEarthAsWellAsTheFixes) {
@@ -223,6 +241,21 @@ TEST(LocalizerWithSatellites, KeepsFixesThatAreEvenlySpaced) {
   }
   EXPECT_EQ(graph.size(), 65U);  // with the start
   EXPECT_TRUE(graph.solve());
+}
+
+TEST(LocalizerWithSatellites, CountASingleFixAsOne) {
+  constexpr double kSigma_m = 2.0;
+  LocalPoseGraph graph(0.01, 0.001, 0.0, {});
+  GnssDrive drive(1, 1.0, kSigma_m);
+  graph.start({drive.now(), 0.0});
+  graph.set_enu(drive.true_enu_from_base().inverse(), std::nullopt);
+  GnssFix fix = drive.fix();
+  fix.antenna_in_base_m.setZero();
+  graph.add_fix(fix, {drive.now(), 0.0});
+  ASSERT_TRUE(graph.solve());
+  const auto here = graph.in_enu({drive.now(), 0.0});
+  EXPECT_LT((here.map_from_base.translation() - fix.enu_m).norm(), 0.01);
+  EXPECT_NEAR(here.covariance(0, 0), kSigma_m * kSigma_m, 0.01);
 }
 
 const std::map<std::string, Change> kFaults = {
