@@ -34,8 +34,12 @@ conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSa
   if (!has_altitude) point.altitude_m = 0.0;
   const Eigen::Matrix3d stated =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(message.position_covariance().data());
-  const bool is_stated = message.position_covariance_type() != constants::COVARIANCE_TYPE_UNKNOWN && !stated.isZero();
-  if (is_stated) position.covariance = stated + kLeastVariance_m2 * Eigen::Matrix3d::Identity();
+  if (message.position_covariance_type() != constants::COVARIANCE_TYPE_UNKNOWN) {
+    position.covariance = stated + kLeastVariance_m2 * Eigen::Matrix3d::Identity();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {  // receivers that say nothing of the height leave it 0
+      if (stated(axis, axis) == 0.0) position.covariance(axis, axis) = usual_covariance()(axis, axis);
+    }
+  }
   if (!has_altitude) position.covariance(2, 2) = kUnknownHeight_m * kUnknownHeight_m;
   return position;
 }

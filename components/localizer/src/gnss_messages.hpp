@@ -18,7 +18,7 @@ struct SatellitePosition {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 
-/// Of a message that satisfies its rules. Without a stated covariance, that of a receiver without corrections. The reason
+/// Of a message that satisfies its rules. Variances that are unknown or 0: of a receiver without corrections. The reason
 /// says why there is no position.
 conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message);
 

@@ -52,22 +52,41 @@ void Satellites::on_fix(const sensor_msgs::msg::NavSatFix& message) {
                     context_.log(), "the antenna is at " + base_frame_);
   if (!base_from_antenna) return refuse(base_from_antenna.reason());
   if (!plane_) plane_.emplace(position->point);
-  const Eigen::Vector3d enu_m = plane_->enu(position->point);
-  if (!(enu_m.norm() < kFarthest_m)) {
-    return refuse(fmt::format("is {:.0f} km from the first position", 1e-3 * enu_m.norm()));
+  const double far_m = plane_->enu(position->point).norm();
+  if (far_m < kFarthest_m) {
+    far_.reset();
+  } else if (!begins_anew(position->point)) {
+    return refuse(fmt::format("is {:.0f} km from the first position", 1e-3 * far_m));
   }
-  waiting_.push_back({conversions::stamp_ns(message), enu_m, position->covariance, base_from_antenna->translation()});
+  waiting_.push_back({conversions::stamp_ns(message), plane_->enu(position->point), position->covariance,
+                      base_from_antenna->translation()});
   if (waiting_.size() > kMaxWaiting) {
     waiting_.pop_front();
     refuse("has a stamp far ahead of the odometry's: are the clocks synchronised?");
   }
 }
 
+/// For a position far from the first one. A second one there shows that the first one was wrong, such as the last one
+/// of a receiver that was carried away switched off; unless the odometry or an earlier journey confirmed it.
+bool Satellites::begins_anew(const vision::GeoPoint& point) {
+  const bool is_second = far_ && far_->enu(point).norm() < kFarthest_m;
+  far_.emplace(point);
+  if (!is_second || is_origin_known_ || localizer_.has_enu()) return false;
+  plane_ = std::exchange(far_, std::nullopt);
+  waiting_.clear();
+  localizer_.forget_trial_of_fixes();
+  return true;
+}
+
 bool Satellites::work_off() {
   bool has_learned = false;
-  while (!waiting_.empty() && localizer_.latest().stamp_ns >= waiting_.front().stamp_ns) {
-    const auto outcome = localizer_.add(waiting_.front());
-    waiting_.pop_front();
+  for (auto fix = waiting_.begin(); fix != waiting_.end();) {
+    if (localizer_.latest().stamp_ns < fix->stamp_ns) {
+      ++fix;  // a single wrong stamp does not hold up the others
+      continue;
+    }
+    const auto outcome = localizer_.add(*fix);
+    fix = waiting_.erase(fix);
     tell(outcome);
     has_learned |= outcome.use == FixUse::kUsed || outcome.use == FixUse::kBegun;
   }
@@ -118,6 +137,7 @@ void Satellites::read_georeference() {
       return context_.log().warn("{}: ignored: of frame '{}'", file, known->map_frame);
     }
     plane_.emplace(known->origin);
+    is_origin_known_ = true;
     localizer_.set_known_enu(known->map_from_enu);
     context_.log().info("{}: in the stored map, positions by satellites show where the vehicle is", file);
   } catch (const std::runtime_error& error) {

@@ -32,6 +32,7 @@ class Satellites {
 
  private:
   void on_fix(const sensor_msgs::msg::NavSatFix& message);
+  bool begins_anew(const vision::GeoPoint& point);
   void tell(const FixOutcome& outcome);
   void refuse(const std::string& reason);
   void serve();
@@ -47,6 +48,8 @@ class Satellites {
   runtime::Output<sensor_msgs::msg::NavSatFix> enhanced_;
   runtime::Output<tf2_msgs::msg::TFMessage> tf_;
   std::optional<vision::TangentPlane> plane_;  // at the first position
+  std::optional<vision::TangentPlane> far_;    // at the last position, if that is too far from the first
+  bool is_origin_known_ = false;               // the plane is that of an earlier journey
   std::deque<GnssFix> waiting_;
   std::optional<std::int64_t> kept_ns_;
   conversions::SensorMount antenna_;

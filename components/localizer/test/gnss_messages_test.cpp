@@ -37,6 +37,10 @@ TEST(GnssMessages, AssumeTheUsualCovarianceIfNoneIsStated) {
   auto zero = valid();
   zero.position_covariance({});
   EXPECT_EQ(to_position(zero)->covariance(0, 0), 25.0);
+  auto flat = valid();
+  flat.position_covariance({4.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0});
+  EXPECT_NEAR(to_position(flat)->covariance(1, 1), 4.0, 1e-3);
+  EXPECT_EQ(to_position(flat)->covariance(2, 2), 100.0);
 }
 
 TEST(GnssMessages, UseAPositionWithoutAltitudeInThePlaneOnly) {

@@ -22,6 +22,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
@@ -187,6 +188,31 @@ TEST_F(Satellites, AreSkippedIfInvalidOrOfAnotherReceiver) {
   EXPECT_TRUE(harness_.log_contains("is 122 km from the first position"));
   drive(1, 20);
   EXPECT_THAT(enhanced_, IsEmpty());
+}
+
+TEST_F(Satellites, AreUsedThoughTheFirstPositionWasThatOfAnotherCity) {
+  publish_antenna();
+  publish_odometry(0);
+  auto stored = fix(0);
+  stored.latitude(52.5);
+  harness_.publish(topics::kGnssFix, stored);
+  drive(1, 200);
+  EXPECT_TRUE(harness_.log_contains("from the first position"));
+  EXPECT_TRUE(harness_.log_contains("/gnss/fix: agrees with the odometry; used from now on"));
+  ASSERT_THAT(enhanced_, Not(IsEmpty()));
+  const auto& last = *enhanced_.back();
+  const Eigen::Vector3d here_m = plane_.enu({last.latitude(), last.longitude(), last.altitude()});
+  EXPECT_LT((here_m - in_enu(pose(199).translation())).norm(), 0.1);
+}
+
+TEST_F(Satellites, AreNotHeldUpByOneOfATimeToCome) {
+  publish_antenna();
+  drive(0, 1);
+  auto early = fix(0);
+  early.header().stamp(conversions::to_stamp(stamp(0) + 86'400'000'000'000LL));
+  harness_.publish(topics::kGnssFix, early);
+  drive(1, 200);
+  EXPECT_TRUE(harness_.log_contains("/gnss/fix: agrees with the odometry; used from now on"));
 }
 
 TEST_F(Satellites, AreNotUsedIfTheirPathDiffers) {

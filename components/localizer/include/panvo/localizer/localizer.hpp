@@ -121,6 +121,8 @@ class Localizer {
   /// Where the frame of the satellites is in the map of the known landmarks, from an earlier journey: then fixes show
   /// where the vehicle is in that map before any landmark is seen.
   void set_known_enu(const PoseInMap& map_from_enu) { known_enu_ = map_from_enu; }
+  /// Those that are not used yet, as they are in another frame than the next ones.
+  void forget_trial_of_fixes() { fix_trial_.clear(); }
   /// Whether there is a frame of the satellites.
   bool has_enu() const noexcept { return graph_.has_enu(); }
   /// Latest enu_from_base, and the map in that frame. Precondition: has_enu().
