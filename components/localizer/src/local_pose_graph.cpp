@@ -51,7 +51,7 @@ void LocalPoseGraph::add_built(std::uint32_t id, std::int64_t panorama_ns, const
   node.landmark_id = id;
   node.at = at;
   node.sighting.stamp_ns = panorama_ns;
-  const auto here = carried(at);
+  const auto here = reckoned(at);
   node.map_from_base = here.map_from_base;
   node.covariance = here.covariance;
   nodes_.push_back(node);
@@ -72,7 +72,7 @@ bool LocalPoseGraph::add_pass(const LandmarkSighting& sighting, const OdometrySa
   node.is_pass = true;
   node.at = at;
   node.sighting = sighting;
-  const auto here = carried(at);
+  const auto here = reckoned(at);
   node.map_from_base = here.map_from_base;
   node.covariance = here.covariance;
   const auto same_pass = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& other) {
@@ -134,6 +134,16 @@ std::vector<KnownLandmark> LocalPoseGraph::landmarks() const {
 }
 
 PoseInMap LocalPoseGraph::carried(const OdometrySample& at) const {
+  PoseInMap here = reckoned(at);
+  const Node* const from = solved_node();
+  if (from == nullptr || at.pose.stamp_ns < from->at.pose.stamp_ns) return here;
+  here.covariance +=
+      vision::rotate_covariance(from->map_from_base.linear(), scale_covariance(way_between(from->at.pose, at.pose)));
+  return here;
+}
+
+/// The same without the uncertainty of the scale, which later solutions contain.
+PoseInMap LocalPoseGraph::reckoned(const OdometrySample& at) const {
   const auto& from = anchor(at.pose.stamp_ns);
   const bool is_back = at.pose.stamp_ns < from.at.pose.stamp_ns;  // before the journey's first node
   const Eigen::Isometry3d way = way_between(from.at.pose, at.pose);

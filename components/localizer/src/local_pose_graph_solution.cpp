@@ -147,7 +147,7 @@ void LocalPoseGraph::add_fix(const GnssFix& fix, const OdometrySample& at) {
   Node node;
   node.fix = fix;
   node.at = at;
-  const auto here = carried(at);
+  const auto here = reckoned(at);
   node.map_from_base = here.map_from_base;
   node.covariance = here.covariance;
   nodes_.push_back(node);
@@ -170,11 +170,25 @@ void LocalPoseGraph::thin_out_fixes() {
   nodes_.erase(nodes_.begin() + static_cast<std::ptrdiff_t>(fixes[least]));
 }
 
-PoseInMap LocalPoseGraph::in_enu(const OdometrySample& at) const {
+/// The last node of the latest solution; nullptr without satellites.
+const LocalPoseGraph::Node* LocalPoseGraph::solved_node() const {
+  if (!enu_) return nullptr;
   const auto last = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& node) {
     return !node.is_of_earlier_day && node.at.pose.stamp_ns == enu_->solved_ns;
   });
-  const Node& from = last != nodes_.end() ? *last : anchor(at.pose.stamp_ns);
+  return last != nodes_.end() ? &*last : nullptr;
+}
+
+/// Covariance that a way gains by the scale, in the axes of its begin.
+vision::Matrix6d LocalPoseGraph::scale_covariance(const Eigen::Isometry3d& way) const {
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  covariance.topLeftCorner<3, 3>() = scale_.sigma * scale_.sigma * way.translation() * way.translation().transpose();
+  return covariance;
+}
+
+PoseInMap LocalPoseGraph::in_enu(const OdometrySample& at) const {
+  const Node* const last = solved_node();
+  const Node& from = last != nullptr ? *last : anchor(at.pose.stamp_ns);
   // Errors as vision::pose_error, of enu_from_base = map_from_enu^-1 * map_from_base to first order.
   const Eigen::Isometry3d enu_from_map = enu_->map_from_enu.inverse();
   vision::Matrix6d by_enu = -vision::Matrix6d::Identity();
@@ -185,7 +199,8 @@ PoseInMap LocalPoseGraph::in_enu(const OdometrySample& at) const {
   const Eigen::Isometry3d enu_from_node = enu_from_map * from.map_from_base;
   const Eigen::Isometry3d way = way_between(from.at.pose, at.pose);
   const bool is_back = at.pose.stamp_ns < from.at.pose.stamp_ns;
-  const vision::Matrix6d gained = is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at, at);
+  const vision::Matrix6d gained = is_back ? vision::Matrix6d(vision::Matrix6d::Zero())
+                                          : vision::Matrix6d(way_covariance(from.at, at) + scale_covariance(way));
   return {enu_from_node * way,
           vision::compose_covariance(enu_from_node, vision::rotate_covariance(enu_from_map.linear(), in_map_axes), way,
                                      gained)};

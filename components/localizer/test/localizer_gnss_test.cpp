@@ -243,6 +243,28 @@ TEST(LocalizerWithSatellites, KeepsFixesThatAreEvenlySpaced) {
   EXPECT_TRUE(graph.solve());
 }
 
+TEST(LocalizerWithSatellites, KnowsWhatTheScaleAddsWhereThereAreNone) {
+  Parameters of_scale;  // 0.002: the odometry is off by twice that
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    GnssDrive drive(seed, 1.004, 0.5);
+    Localizer localizer(of_scale);
+    localizer.add(drive.now());
+    for (int i = 1; i <= 2200; ++i) {
+      localizer.add(drive.step());
+      if (i <= 200 && i % kFixEvery == 0) localizer.add(drive.fix());
+    }
+    ASSERT_TRUE(localizer.has_enu());
+    const auto off = [](const PoseInMap& here, const Eigen::Isometry3d& truth) {
+      const Eigen::Vector2d error = vision::pose_error(here.map_from_base, truth).head<2>();
+      return error.dot(here.covariance.topLeftCorner<2, 2>().ldlt().solve(error));
+    };
+    // 99.9 % of two degrees of freedom.
+    EXPECT_LT(off(localizer.latest_in_enu(), drive.true_enu_from_base()), 13.8);
+    EXPECT_LT(off({localizer.latest().map_from_base, localizer.latest().covariance}, drive.truth), 13.8);
+    EXPECT_EQ(localizer.add(drive.fix()).use, FixUse::kUsed);
+  }
+}
+
 TEST(LocalizerWithSatellites, CountASingleFixAsOne) {
   constexpr double kSigma_m = 2.0;
   LocalPoseGraph graph(0.01, 0.001, 0.0, {});

@@ -92,7 +92,8 @@ class LocalPoseGraph {
   /// Landmarks of this journey and those of earlier journeys that were seen, by ascending id.
   std::vector<KnownLandmark> landmarks() const;
 
-  /// Pose in the map of an odometry pose, from the last node before it. Precondition: started.
+  /// Pose in the map of an odometry pose, from the last node before it. Precondition: started. With satellites, the
+  /// uncertainty of the scale counts from the last solution on.
   PoseInMap carried(const OdometrySample& at) const;
 
   /// Error common to all poses, which the graph cannot contain: that of the earlier journeys' map, taken from its most
@@ -148,6 +149,9 @@ class LocalPoseGraph {
   void forget_least_precise_pass(std::uint32_t landmark_id);
   const Node* landmark_node(std::uint32_t id) const;
   const Node& anchor(std::int64_t stamp_ns) const;
+  const Node* solved_node() const;
+  PoseInMap reckoned(const OdometrySample& at) const;
+  vision::Matrix6d scale_covariance(const Eigen::Isometry3d& way) const;
   std::vector<std::size_t> journey_order() const;
   Eigen::Isometry3d way_between(const OdometryPose& from, const OdometryPose& to) const;
   vision::Matrix6d way_covariance(const OdometrySample& from, const OdometrySample& to) const;
