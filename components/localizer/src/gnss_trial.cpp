@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kLeastSamples = 5;      // two determine the alignment, the others test it
 constexpr double kLengthSigmas = 10.0;        // then the direction is known to 0.1 rad
+constexpr double kWayRatio = 2.0;             // of a path with bends over its length
 constexpr double kOdometryDriftRatio = 0.02;  // of odometry over the path, twice that of a poor calibration
 constexpr double kMaxMeanSquare = 4.0;        // of the errors over their standard deviation: stated twice too small
 
@@ -47,9 +48,18 @@ Eigen::Isometry3d aligned(const std::deque<GnssTrial::Sample>& samples) {
 
 }  // namespace
 
-void GnssTrial::add(const Sample& sample) {
+void GnssTrial::add(const Sample& sample, double least_m) {
   samples_.push_back(sample);
-  if (samples_.size() > kMaxSamples) samples_.pop_front();
+  if (samples_.size() <= kMaxSamples) return;
+  const double needed_m = std::max(least_m, kWayRatio * kLengthSigmas * std::sqrt(horizontal_variance(sample.fix)));
+  if (way_m(1) >= needed_m) return samples_.pop_front();
+  // Without the sample that leaves the smallest gap, but neither the first nor the last.
+  std::size_t least = 1;
+  const auto gap_m = [&](std::size_t k) { return samples_[k + 1].at.way_m - samples_[k - 1].at.way_m; };
+  for (std::size_t k = 2; k + 1 < samples_.size(); ++k) {
+    if (gap_m(k) < gap_m(least)) least = k;
+  }
+  samples_.erase(samples_.begin() + static_cast<std::ptrdiff_t>(least));
 }
 
 std::optional<GnssTrial::Result> GnssTrial::result(double least_m) const {
@@ -61,12 +71,11 @@ std::optional<GnssTrial::Result> GnssTrial::result(double least_m) const {
     enu_length_m = std::max(enu_length_m, (sample.fix.enu_m - samples_.front().fix.enu_m).head<2>().norm());
     largest_variance = std::max(largest_variance, horizontal_variance(sample.fix));
   }
-  const double way_m = samples_.back().at.way_m - samples_.front().at.way_m;
-  if (way_m < least_m || length_m < kLengthSigmas * std::sqrt(largest_variance)) return std::nullopt;
+  if (way_m(0) < least_m || length_m < kLengthSigmas * std::sqrt(largest_variance)) return std::nullopt;
 
   Result result;
   result.odom_from_enu = aligned(samples_);
-  const double middle_m = samples_.front().at.way_m + 0.5 * way_m;
+  const double middle_m = samples_.front().at.way_m + 0.5 * way_m(0);
   double sum = 0.0;
   for (const auto& sample : samples_) {
     const Eigen::Vector3d apart = result.odom_from_enu * sample.fix.enu_m - antenna_in_odom(sample);

@@ -37,7 +37,7 @@ FixOutcome Localizer::add(const GnssFix& received) {
 
 /// Begins the use of fixes if those on trial have the shape of the odometry's path.
 FixOutcome Localizer::try_fixes(const GnssTrial::Sample& sample, double least_m) {
-  fix_trial_.add(sample);
+  fix_trial_.add(sample, least_m);
   const auto result = fix_trial_.result(least_m);
   if (!result) return {FixUse::kOnTrial, {}};
   if (!result->agrees) return {FixUse::kOnTrial, result->reason};

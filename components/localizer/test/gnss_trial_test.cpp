@@ -20,7 +20,7 @@ GnssTrial trial_over(
     OdometrySample at{drive.step(), static_cast<double>(i)};
     GnssFix fix = drive.fix();
     change(fix);
-    if (i % 5 == 0) trial.add({fix, at});
+    if (i % 5 == 0) trial.add({fix, at}, 30.0);
   }
   return trial;
 }
@@ -28,6 +28,25 @@ GnssTrial trial_over(
 TEST(GnssTrial, WaitsForAPathThatShowsTheDirection) {
   EXPECT_FALSE(trial_over(25).result(30.0));
   EXPECT_TRUE(trial_over(40).result(30.0));
+}
+
+TEST(GnssTrial, ReachesOverThePathThatIsNeededHoweverCloseTheFixesAre) {
+  constexpr double kSigma_m = 10.0;  // 100 m of path show the direction
+  GnssDrive drive(3, 1.0, kSigma_m);
+  GnssTrial trial;
+  for (int i = 1; i <= 400; ++i) {
+    const OdometrySample at{drive.step(), static_cast<double>(i)};
+    trial.add({drive.fix(), at}, 30.0);
+    EXPECT_LE(trial.samples().size(), 64U);
+    EXPECT_EQ(trial.samples().back().at.way_m, i);
+    // Of a path with bends, 120 m are needed.
+    if (i < 100 || i >= 120) {
+      EXPECT_EQ(trial.result(30.0).has_value(), i >= 120) << i;
+    }
+  }
+  const auto& samples = trial.samples();
+  EXPECT_LT(samples.back().at.way_m - samples.front().at.way_m, 220.0);  // old ones are forgotten
+  for (std::size_t k = 1; k < samples.size(); ++k) EXPECT_LE(samples[k].at.way_m - samples[k - 1].at.way_m, 8.0);
 }
 
 TEST(GnssTrial, FindsTheFrameOfTheSatellites) {

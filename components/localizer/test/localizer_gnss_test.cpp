@@ -265,6 +265,28 @@ TEST(LocalizerWithSatellites, KnowsWhatTheScaleAddsWhereThereAreNone) {
   }
 }
 
+/// Metres between the fixes that are used.
+class SpacedSatellites : public ::testing::TestWithParam<double> {};
+
+TEST_P(SpacedSatellites, AreTriedAnewWhenTheirFrameMoves) {
+  Parameters spaced = parameters();
+  spaced.gnss.spacing_m = GetParam();
+  GnssDrive drive(2, 1.0, 0.3);
+  Localizer localizer(spaced);
+  localizer.add(drive.now());
+  int begun_m = 0;
+  for (int i = 1; i <= 450; ++i) {
+    localizer.add(drive.step());
+    GnssFix fix = drive.fix();
+    if (i > 100) fix.enu_m.x() += 40.0;
+    if (localizer.add(fix).use == FixUse::kBegun) begun_m = i;
+  }
+  EXPECT_GE(begun_m, 100 + 300);
+  EXPECT_LE(begun_m, 100 + 300 + 3 * 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Spacings, SpacedSatellites, ::testing::Values(1.0, 2.0, 4.0, 10.0));
+
 TEST(LocalizerWithSatellites, CountASingleFixAsOne) {
   constexpr double kSigma_m = 2.0;
   LocalPoseGraph graph(0.01, 0.001, 0.0, {});

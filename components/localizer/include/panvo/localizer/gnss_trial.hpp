@@ -25,14 +25,16 @@ class GnssTrial {
     std::string reason;                                               ///< why not
   };
 
-  /// Fixes in order of the path; keeps the last 64.
-  void add(const Sample& sample);
+  /// Fixes in order of the path. Keeps 64: the last, or, if those do not reach over what result() needs, evenly spaced.
+  void add(const Sample& sample, double least_m);
   /// nullopt while the path is too short to tell: shorter than `least_m`, or not ten standard deviations of a fix wide.
   std::optional<Result> result(double least_m) const;
   const std::deque<Sample>& samples() const noexcept { return samples_; }
   void clear() { samples_.clear(); }
 
  private:
+  double way_m(std::size_t from) const { return samples_.back().at.way_m - samples_[from].at.way_m; }
+
   static constexpr std::size_t kMaxSamples = 64;
 
   std::deque<Sample> samples_;
