@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "panvo/localizer/speed_jump.hpp"
 #include "panvo/vision/angle.hpp"
 #include "panvo/vision/seconds.hpp"
 
@@ -13,10 +14,9 @@ namespace {
 
 // Probability that the side considered right in a dispute is wrong: then the pose is off by three standard deviations.
 constexpr double kDoubt = 1.0 / 9.0;
-constexpr double kUnseen_s = 5.0;   // unseen motion of the vehicle is bounded by that of so long a silence
-constexpr double kReach = 3.0;      // standard deviations of that
-constexpr double kMaxAtOnce = 2.0;  // m/s: exceeds the change of any vehicle's speed between two images
-constexpr double kAlarm_s = 0.5;    // time until a panorama confirms or refutes the jump
+constexpr double kUnseen_s = 5.0;  // unseen motion of the vehicle is bounded by that of so long a silence
+constexpr double kReach = 3.0;     // standard deviations of that
+constexpr double kAlarm_s = 0.5;   // time until a panorama confirms or refutes the jump
 
 constexpr double kSteady_s = 0.2;          // interval over which the current motion is measured
 constexpr double kOdometryError_m = 0.03;  // over some tenths of a second
@@ -52,13 +52,8 @@ CrossCheck::CrossCheck(const Parameters& parameters)
 /// If odometry follows something else, its speed changes abruptly, long before a panorama shows it.
 void CrossCheck::add_step(const OdometryBuffer& chain) {
   const auto& now = chain.latest().pose;
-  const auto before_ns = chain.before_latest_ns();
-  const auto twist = chain.twist(now.stamp_ns);
-  const auto twist_before = before_ns ? chain.twist(*before_ns) : std::nullopt;
-  if (twist && twist_before) {
-    const double change_m_s = (twist->head<2>() - twist_before->head<2>()).norm();
-    if (change_m_s > kMaxAtOnce) jump_ = Jump{now.stamp_ns, change_m_s};
-  }
+  const auto before_ns = chain.stamp_before_latest(1);
+  if (const auto change_m_s = speed_jump_m_s(chain, agreed_ns_)) jump_ = Jump{now.stamp_ns, *change_m_s};
   if (break_ && !break_->is_over) {
     break_->to_ns = now.stamp_ns;
     break_->is_over = now.is_reliable;

@@ -82,9 +82,9 @@ bool OdometryBuffer::add(const OdometryPose& odometry, double turn_error_rad, co
   return true;
 }
 
-std::optional<std::int64_t> OdometryBuffer::before_latest_ns() const {
-  if (entries_.size() < 2) return std::nullopt;
-  return entries_[entries_.size() - 2].raw.stamp_ns;
+std::optional<std::int64_t> OdometryBuffer::stamp_before_latest(std::size_t poses) const {
+  if (entries_.size() <= poses) return std::nullopt;
+  return entries_[entries_.size() - 1 - poses].raw.stamp_ns;
 }
 
 std::optional<OdometrySample> OdometryBuffer::at(std::int64_t stamp_ns) const {

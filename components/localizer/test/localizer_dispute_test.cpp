@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <random>
 
 #include "panvo/localizer/localizer.hpp"
 #include "panvo/vision/angle.hpp"
@@ -38,7 +39,7 @@ class Straight {
     gained.bottomRightCorner<3, 3>() *= 1e-4 * 1e-4;
     odometry_.covariance = vision::compose_covariance(odometry_.odom_from_base, odometry_.covariance, move, gained);
     odometry_.odom_from_base = odometry_.odom_from_base * move;
-    odometry_.stamp_ns = frame_ * kFrame_ns;
+    odometry_.stamp_ns = frame_ * kFrame_ns + static_cast<std::int64_t>(jitter_s * 1e9 * normal_(random_));
     odometry_.is_reliable = is_reliable;
     localizer.add(odometry_);
     if (frame_ % kFramesAPanorama != 0 || !has_panoramas) return;
@@ -100,11 +101,14 @@ class Straight {
   double rig_turned_rad = 0.0, camera_turned_rad = 0.0, compass_rad = 0.0;
   bool has_panoramas = true, is_reliable = true;
   double turn_variance_rad2 = 1e-8, direction_variance_rad2 = 1e-5;  // of the panoramas
+  double jitter_s = 0.0;                                             // standard deviation of the stamps
   double farness_m = 20.0;                                           // of what is beside the path
   AzimuthUse last_use = AzimuthUse::kNotUsed;
 
  private:
   OdometryPose odometry_;
+  std::mt19937_64 random_{7};
+  std::normal_distribution<double> normal_;
   std::int64_t frame_ = 0;
   double true_x_m_ = 0.0;
   std::map<std::uint32_t, double> built_x_m_;
@@ -153,6 +157,26 @@ TEST(LocalizerDispute, CoversWhatAMoverBeforeBothEyesTakesItAlong) {
   EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
   EXPECT_GT(vehicle.error_m(), 20.0);
   EXPECT_LT(vehicle.error_in_sigmas(), 3.0);
+}
+
+TEST(LocalizerDispute, CanBeUsedHoweverStampsJitterUntilItFollowsAMover) {
+  for (const bool has_panoramas : {true, false}) {
+    for (const double jitter_s : {0.001, 0.002, 0.004}) {
+      Straight vehicle;
+      vehicle.speed_m_s = 10.0;
+      vehicle.has_panoramas = has_panoramas;
+      vehicle.jitter_s = jitter_s;
+      int unusable = 0;
+      for (int i = 0; i < 500; ++i) {
+        vehicle.step();
+        unusable += vehicle.is_usable() ? 0 : 1;
+      }
+      EXPECT_EQ(unusable, 0) << "of 500, " << jitter_s << " s, with panoramas: " << has_panoramas;
+      vehicle.mover_m_s = 5.0;
+      vehicle.drive(0.16);
+      EXPECT_FALSE(vehicle.is_usable()) << jitter_s << " s, with panoramas: " << has_panoramas;
+    }
+  }
 }
 
 TEST(LocalizerDispute, KnowsOfAMoverThatPassesAVehicleThatStands) {

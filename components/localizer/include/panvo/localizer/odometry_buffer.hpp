@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -52,8 +53,8 @@ class OdometryBuffer {
   bool empty() const noexcept { return entries_.empty(); }
   /// Precondition: not empty.
   const OdometrySample& latest() const { return entries_.back().now; }
-  /// Stamp of the pose before the latest; nullopt if none is stored.
-  std::optional<std::int64_t> before_latest_ns() const;
+  /// Stamp of the pose that is so many poses before the latest; nullopt if it is not stored.
+  std::optional<std::int64_t> stamp_before_latest(std::size_t poses) const;
   /// Interpolated between the two poses around a time, or extrapolated by up to 5 ms after the last; nullopt outside
   /// the buffer.
   std::optional<OdometrySample> at(std::int64_t stamp_ns) const;
