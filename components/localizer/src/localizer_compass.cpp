@@ -22,10 +22,11 @@ constexpr double kOtherClock = 2.0;      // standard deviations: the filter foll
 
 }  // namespace
 
-AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
-  const std::int64_t from_ns = in_odometry_time(azimuth.from_ns);
-  const std::int64_t to_ns = in_odometry_time(azimuth.to_ns);
-  if (fault_of_angle(azimuth.change_rad, azimuth.variance_rad2)) return AzimuthUse::kNotUsed;
+AzimuthUse Localizer::add(const AzimuthMeasurement& received) {
+  const std::int64_t from_ns = in_odometry_time(received.from_ns);
+  const std::int64_t to_ns = in_odometry_time(received.to_ns);
+  if (fault_of_angle(received.change_rad, received.variance_rad2)) return AzimuthUse::kNotUsed;
+  const AzimuthMeasurement azimuth = unwrapped(received);
   search_clock(azimuth);
   if (!chain_.turn(from_ns, to_ns)) return AzimuthUse::kNotUsed;
   const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
@@ -88,6 +89,14 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   latest_ = localized(chain_.latest());
   if (wrong == Wrong::kPanoramas) return AzimuthUse::kDoubted;
   return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
+}
+
+/// Panoramas show a turn except for whole ones, which odometry tells: a vehicle that turns in place may turn by more than
+/// 180 degrees against one reference.
+AzimuthMeasurement Localizer::unwrapped(AzimuthMeasurement azimuth) const {
+  const auto turn = chain_.turn(in_odometry_time(azimuth.from_ns), in_odometry_time(azimuth.to_ns));
+  if (turn) azimuth.change_rad = turn->change_rad + vision::wrapped(azimuth.change_rad - turn->change_rad);
+  return azimuth;
 }
 
 /// A turn agrees with the odometry's. It proves the clock if it would not with another time.

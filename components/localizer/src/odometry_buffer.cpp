@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <type_traits>
 
 #include "panvo/localizer/dead_reckoning.hpp"
@@ -24,6 +25,14 @@ double persisting_share(double way_m, double memory_m) {
   constexpr double kShort = 1e-4;  // without loss of digits
   const double ways = memory_m > 0.0 ? way_m / memory_m : 0.0;
   return ways < kShort ? 1.0 : 2.0 * (ways + std::expm1(-ways)) / (ways * ways);
+}
+
+/// Yaw from one pose to another. The sum of the steps' yaws only tells the number of whole turns, as tilted steps turn
+/// about other axes.
+double unwrapped_turn(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double sum_rad) {
+  constexpr double kWhole_rad = 2.0 * std::numbers::pi;
+  const double turn_rad = yaw_of((from.inverse() * to).linear());
+  return turn_rad + kWhole_rad * std::round((sum_rad - turn_rad) / kWhole_rad);
 }
 
 double between(std::int64_t stamp_ns, std::int64_t from_ns, std::int64_t to_ns) {
@@ -69,7 +78,9 @@ bool OdometryBuffer::add(const OdometryPose& odometry, double turn_error_rad, co
   entry.now.pose = odometry;
   if (!entries_.empty()) {
     const auto& before = entries_.back();
-    entry.step.motion = turned_more(before.raw.odom_from_base.inverse() * odometry.odom_from_base, -turn_error_rad);
+    const Eigen::Isometry3d moved = before.raw.odom_from_base.inverse() * odometry.odom_from_base;
+    entry.raw_turn_rad = before.raw_turn_rad + yaw_of(moved.linear());
+    entry.step.motion = turned_more(moved, -turn_error_rad);
     entry.step.covariance = gained_covariance(before.raw, odometry, kMinStepVariance);
     entry.step.covariance = at_least(entry.step.covariance, least);
     entry.marked = entry.step;
@@ -101,6 +112,7 @@ std::optional<OdometrySample> OdometryBuffer::at(std::int64_t stamp_ns) const {
     return std::decay_t<decltype(from)>((1.0 - place->share) * from + place->share * to);
   };
   here.way_m = between(before.way_m, after.way_m);
+  here.turn_rad = between(before.turn_rad, after.turn_rad);
   here.unmeasured_way_m = between(before.unmeasured_way_m, after.unmeasured_way_m);
   here.unmeasured_turn_rad = between(before.unmeasured_turn_rad, after.unmeasured_turn_rad);
   here.way_moment = between(before.way_moment, after.way_moment);
@@ -113,7 +125,7 @@ std::optional<Turn> OdometryBuffer::turn(std::int64_t from_ns, std::int64_t to_n
   const auto to = at(to_ns);
   if (!from || !to || from_ns >= to_ns) return std::nullopt;
   Turn turn;
-  turn.change_rad = yaw_of((from->pose.odom_from_base.inverse() * to->pose.odom_from_base).linear());
+  turn.change_rad = unwrapped_turn(from->pose.odom_from_base, to->pose.odom_from_base, to->turn_rad - from->turn_rad);
   for (std::size_t i = first_after(from_ns); i < entries_.size(); ++i) {
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
@@ -126,15 +138,17 @@ std::optional<double> OdometryBuffer::raw_turn(std::int64_t from_ns, std::int64_
   const auto from = raw_at(from_ns);
   const auto to = raw_at(to_ns);
   if (!from || !to) return std::nullopt;
-  return yaw_of((from->inverse() * *to).linear());
+  return unwrapped_turn(from->odom_from_base, to->odom_from_base, to->turn_rad - from->turn_rad);
 }
 
-std::optional<Eigen::Isometry3d> OdometryBuffer::raw_at(std::int64_t stamp_ns) const {
+auto OdometryBuffer::raw_at(std::int64_t stamp_ns) const -> std::optional<RawPose> {
   const auto place = place_of(stamp_ns);
   if (!place) return std::nullopt;
-  const auto& after = entries_[place->after].raw;
-  if (after.stamp_ns == stamp_ns) return after.odom_from_base;
-  return vision::interpolate(entries_[place->after - 1].raw.odom_from_base, after.odom_from_base, place->share);
+  const Entry& after = entries_[place->after];
+  if (after.raw.stamp_ns == stamp_ns) return RawPose{after.raw.odom_from_base, after.raw_turn_rad};
+  const Entry& before = entries_[place->after - 1];
+  return RawPose{vision::interpolate(before.raw.odom_from_base, after.raw.odom_from_base, place->share),
+                 before.raw_turn_rad + place->share * (after.raw_turn_rad - before.raw_turn_rad)};
 }
 
 std::optional<vision::Vector6d> OdometryBuffer::twist(std::int64_t stamp_ns) const {
@@ -265,10 +279,12 @@ void OdometryBuffer::compose_from(std::size_t index) {
                                                            entry.step.motion, entry.step.covariance);
     const double length_m = entry.step.motion.translation().norm();
     const double unmeasured_m = entry.step.odometry_weight * length_m;
-    const double unmeasured_rad = entry.step.odometry_weight * yaw_of(entry.step.motion.linear());
+    const double turn_rad = yaw_of(entry.step.motion.linear());
+    const double unmeasured_rad = entry.step.odometry_weight * turn_rad;
     const Eigen::Vector2d way =
         (entry.now.pose.odom_from_base.translation() - before.pose.odom_from_base.translation()).head<2>();
     entry.now.way_m = before.way_m + length_m;
+    entry.now.turn_rad = before.turn_rad + turn_rad;
     entry.now.unmeasured_way_m = before.unmeasured_way_m + unmeasured_m;
     entry.now.unmeasured_turn_rad = before.unmeasured_turn_rad + unmeasured_rad;
     entry.now.way_moment = before.way_moment + (before.unmeasured_way_m + 0.5 * unmeasured_m) * way;

@@ -242,6 +242,33 @@ TEST(OdometryBuffer, ALeanThatChangesTurnsLessThanOneThatLasts) {
   EXPECT_NEAR(variance(1.0), 0.02 * 0.99 * 1e-4, 1e-8) << "a hundred independent ones";
 }
 
+TEST(OdometryBuffer, TellsTurnsOfMoreThanHalfATurnWhole) {
+  for (const double step_rad : {0.05, -0.05}) {
+    OdometryBuffer chain(60.0);
+    OdometryPose pose;
+    chain.add(pose);
+    const vision::Matrix6d gained = 1e-8 * vision::Matrix6d::Identity();
+    for (int i = 0; i < 300; ++i) {
+      Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+      step.linear() = vision::so3_exp({0.0, 0.0, step_rad});
+      pose.covariance = vision::compose_covariance(pose.odom_from_base, pose.covariance, step, gained);
+      pose.odom_from_base = pose.odom_from_base * step;
+      pose.stamp_ns += kEach_ns;
+      chain.add(pose);
+    }
+    for (const double steps : {0.3, 62.0, 63.5, 120.0, 125.9, 290.0, 298.1}) {
+      const std::int64_t from_ns = 2 * kEach_ns, to_ns = from_ns + static_cast<std::int64_t>(steps * kEach_ns);
+      EXPECT_NEAR(chain.turn(from_ns, to_ns)->change_rad, steps * step_rad, 1e-6) << steps;
+      EXPECT_NEAR(*chain.raw_turn(from_ns, to_ns), steps * step_rad, 1e-6) << steps;
+    }
+    chain.apply_yaw_correction(0, 300 * kEach_ns, 1.0, 1.0);
+    EXPECT_NEAR(chain.turn(0, 300 * kEach_ns)->change_rad, 300 * step_rad + 1.0, 1e-6);
+    EXPECT_NEAR(*chain.raw_turn(0, 300 * kEach_ns), 300 * step_rad, 1e-6);
+    chain.set_clock_back(kEach_ns);
+    EXPECT_NEAR(chain.turn(0, 299 * kEach_ns)->change_rad, 299 * (step_rad + 1.0 / 300), 1e-6);
+  }
+}
+
 TEST(OdometryBuffer, KnowsTheTwist) {
   OdometryBuffer chain(60.0);
   OdometryPose pose;

@@ -200,6 +200,7 @@ class Localizer {
   bool agree(const PendingRelocalization& before, const PendingRelocalization& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   LandmarkSighting with_uncertain_mount(const LandmarkSighting& sighting) const;
+  AzimuthMeasurement unwrapped(AzimuthMeasurement azimuth) const;
   void search_clock(const AzimuthMeasurement& azimuth);
   void set_clock(double ahead_s, std::int64_t panorama_stamp_ns);
   void agree(std::int64_t panorama_stamp_ns, double disagreement_rad, double rate_change_rad_s, double sigma_rad);

@@ -26,13 +26,15 @@ struct OdometryPose {
 struct OdometrySample {
   OdometryPose pose;
   double way_m = 0.0;
+  double turn_rad = 0.0;  ///< sum of the steps' yaws, left positive, not wrapped
   double unmeasured_way_m = 0.0;
   double unmeasured_turn_rad = 0.0;  ///< left positive, not wrapped
   /// Integrals of both over the path, in the odometry's frame.
   Eigen::Vector2d way_moment = Eigen::Vector2d::Zero(), turn_moment = Eigen::Vector2d::Zero();
 };
 
-/// Rotation of the vehicle, left positive.
+/// Rotation of the vehicle, left positive, not wrapped: a vehicle that turns in place may turn by more than 180 degrees
+/// between two panoramas.
 struct Turn {
   double change_rad = 0.0;
   double variance_rad2 = 0.0;
@@ -97,7 +99,8 @@ class OdometryBuffer {
     double yaw_variance_rad2() const { return covariance(vision::kYaw, vision::kYaw); }
   };
   struct Entry {
-    OdometryPose raw;  // as received
+    OdometryPose raw;           // as received
+    double raw_turn_rad = 0.0;  // sum of the yaws of its steps, not wrapped
     Step step;
     Step marked;         // the step to restore
     OdometrySample now;  // composition of all steps up to this one
@@ -109,9 +112,14 @@ class OdometryBuffer {
     double share;
   };
 
+  struct RawPose {
+    Eigen::Isometry3d odom_from_base;
+    double turn_rad;
+  };
+
   std::optional<Place> place_of(std::int64_t stamp_ns) const;
   std::size_t first_after(std::int64_t stamp_ns) const;
-  std::optional<Eigen::Isometry3d> raw_at(std::int64_t stamp_ns) const;
+  std::optional<RawPose> raw_at(std::int64_t stamp_ns) const;
   double share(std::size_t index, std::int64_t from_ns, std::int64_t to_ns) const;
   void compose_from(std::size_t index);
 
