@@ -40,7 +40,7 @@ run_to_its_end() {
 # takes_value OPTION: whether this option of panvo_run takes a value.
 takes_value() {
   case $1 in
-    --dataset | --bag | --calibration | --out | --rate | --set | --seed | --domain | --dds-profiles | --container | --await | --respawn-delay | --secure | --enclave | --ros-distro) return 0 ;;
+    --dataset | --bag | --calibration | --out | --rate | --set | --seed | --domain | --dds-profiles | --container | --await | --respawn-delay | --secure | --enclave | --ros-distro | -p | --param | -r | --remap) return 0 ;;
     *) return 1 ;;
   esac
 }

@@ -212,6 +212,9 @@ class Anywhere(unittest.TestCase):
             ran = panvo("run", "--replay", "demo", "--set", "a.b=c d", command=command, cwd=folder)
             system = programs.parent / "share" / "panvo" / "config" / "systems" / "demo.yaml"
             self.assertEqual(ran.stdout, f"<--replay>\n<{system.resolve()}>\n<--set>\n<a.b=c d>\n", ran.stderr)
+            for option, value in (("-p", "x:=y"), ("--param", "n:x:=y"), ("-r", "a:=b"), ("--remap", "__ns:=/r1")):
+                ran = panvo("run", option, value, "demo", command=command, cwd=folder)
+                self.assertEqual(ran.stdout, f"<{option}>\n<{value}>\n<{system.resolve()}>\n", ran.stderr)
 
 
 def write_program(file, *lines):
