@@ -103,6 +103,7 @@ export class App {
         this.connection.connecting();
         break;
       case "open":
+        if (happening.isAnotherRun) this.drive.startAnew();
         this.#player.range_s = happening.range_s;
         this.#onOpen(happening.server, happening.capabilities);
         break;

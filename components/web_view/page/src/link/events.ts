@@ -29,7 +29,7 @@ export interface Traffic {
 /** From the connection's thread. */
 export type Happening =
   | { kind: "connecting"; attempt: number }
-  | { kind: "open"; server: string; capabilities: string[]; range_s?: [number, number] } // of what is played
+  | { kind: "open"; server: string; capabilities: string[]; isAnotherRun: boolean; range_s?: [number, number] } // of what is played
   | { kind: "lost"; wasOpen: boolean; retry_ms: number }
   | { kind: "topics"; topics: { topic: string; type: string }[] }
   | { kind: "services"; services: { name: string; type: string }[] }

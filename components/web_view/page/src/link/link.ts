@@ -35,6 +35,7 @@ export class Link {
   #socket: Socket | undefined;
   #cancelRetry: (() => void) | undefined;
   #attempt = 0;
+  #session: string | undefined; // of the server, since it was started
   #backOff = new BackOff();
   #channels = new Channels();
   #requests: Requests;
@@ -125,7 +126,7 @@ export class Link {
       case "serverInfo":
         this.#backOff.reset();
         this.#attempt = 0;
-        this.surroundings.emit({ kind: "open", server: message.name, capabilities: message.capabilities, ...playedRange(message) });
+        this.surroundings.emit({ kind: "open", server: message.name, capabilities: message.capabilities, isAnotherRun: this.#isAnotherRun(message.sessionId), ...playedRange(message) });
         break;
       case "advertise":
         this.#channels.offer(message.channels);
@@ -141,6 +142,13 @@ export class Link {
       default:
         this.#requests.handle(message);
     }
+  }
+
+  /** Whether the server was started since the last session: what came before is of another drive. */
+  #isAnotherRun(sessionId = ""): boolean {
+    const before = this.#session;
+    this.#session = sessionId.replace(/-timed$/, ""); // panvo's server tells so that it goes on with the time of a simulation
+    return before !== undefined && before !== this.#session;
   }
 
   #changedTopics(): void {

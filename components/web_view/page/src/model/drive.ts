@@ -303,7 +303,7 @@ export class Drive {
 
   /** The time went back: a bag was moved, or started again. What lies before stays. */
   #goBack(time: number): void {
-    if (!(time > this.begin + restart_s)) return this.#restart();
+    if (!(time > this.begin + restart_s)) return this.#restart(this.yawOfFrame, this.components);
     const { enhanced, binocular, truth, dropped, cpu, memory } = this;
     for (const path of [enhanced, binocular, truth]) path.cut(time);
     for (const series of [...Object.values(this.series), ...dropped.values(), ...cpu.values(), ...memory.values()]) series.cut(time);
@@ -323,12 +323,18 @@ export class Drive {
     this.#rates.clear();
   }
 
-  /** Another drive. */
-  #restart(): void {
-    const { yawOfFrame, version, components } = this;
-    Object.assign(this, new Drive(), { yawOfFrame, version: version + 1, components });
+  /** Another drive, of another run of the system. */
+  startAnew(): void {
+    this.#restart(new Map(), new Map());
+  }
+
+  /** Another drive of the same vehicle. */
+  #restart(yawOfFrame: Map<string, number>, components: Map<string, Component>): void {
+    Object.assign(this, new Drive(), { yawOfFrame, version: this.version + 1, components });
     this.#located_s = -Infinity;
     this.#odometer = new Odometer();
+    this.#pass = [];
+    this.#passEntry = undefined;
     this.#turns.clear();
     this.#rates.clear();
   }

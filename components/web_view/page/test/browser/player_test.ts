@@ -91,7 +91,7 @@ for (const [name, width, height] of [["computer", 1280, 800], ["phone", 390, 844
 
 test("the slider spans the whole bag if its time range is known, and seeks stay within it", async () => {
   const page = await opened(1280, 800);
-  await page.evaluate(() => panvo.on({ kind: "open", server: "panvo", capabilities: ["services"], range_s: [50, 150] }));
+  await page.evaluate(() => panvo.on({ kind: "open", server: "panvo", capabilities: ["services"], isAnotherRun: false, range_s: [50, 150] }));
   await page.evaluate(actAsPlayer);
   await page.waitForFunction(() => document.querySelector("#player input")!.getAttribute("aria-valuetext") === "0:50 of 1:40", { polling: 100 });
   await page.focus('#player [aria-label="Position in what was played"]');

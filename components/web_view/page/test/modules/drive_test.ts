@@ -110,6 +110,19 @@ test("replaying a bag begins a new drive", () => {
   assert.equal(drive.now, 100);
 });
 
+test("another run of the system begins with nothing of the one before", () => {
+  const drive = driven(20);
+  const { version } = drive;
+  drive.startAnew();
+  assert.deepEqual([drive.enhanced.count, drive.truth.count, drive.binocular.count, drive.entries.length], [0, 0, 0, 0]);
+  assert.ok(drive.version > version);
+  take(drive, "binocular", odometry(200, { x: 70, y: 0, yaw: 0 }, 1));
+  take(drive, "enhanced", odometry(200, { x: 30, y: 0, yaw: 0 }, 1));
+  assert.equal(drive.driven_m, 0);
+  near(drive.drift_m, 0, 1e-9);
+  assert.equal(drive.begin, 200);
+});
+
 test("a bag that is moved back keeps what lies before", () => {
   const drive = driven(600);
   take(drive, "landmark", landmark(1, 3, 101));

@@ -122,6 +122,25 @@ test("a lost server is retried with growing delays until it answers", () => {
   assert.equal(timers[3]!.ms, 500);
 });
 
+test("a server that was started anew begins another run, and one with a time of its own does not", () => {
+  const { sockets, timers, happenings } = started();
+  const greet = (socket: FakeSocket, sessionId: string) => socket.say({ op: "serverInfo", name: "panvo", capabilities: [], sessionId });
+  const reconnect = () => {
+    sockets[sockets.length - 1]!.onclose?.();
+    timers[timers.length - 1]!.call();
+    return sockets[sockets.length - 1]!;
+  };
+  let socket = reconnect();
+  greet(socket, "12");
+  greet(socket, "12-timed");
+  socket = reconnect();
+  greet(socket, "12-timed");
+  socket = reconnect();
+  greet(socket, "13");
+  const isAnother = happenings.filter(({ kind }) => kind === "open").slice(1).map((one) => (one as { isAnotherRun: boolean }).isAnotherRun);
+  assert.deepEqual(isAnother, [true, false, false, true]);
+});
+
 test("waiting times have a limit", () => {
   const backOff = new BackOff(500, 10_000);
   const times = Array.from({ length: 8 }, () => backOff.next_ms());
