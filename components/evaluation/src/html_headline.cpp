@@ -21,7 +21,7 @@ std::string what_it_is(const JourneyRecording& recording, const PathScores& path
                                                          : fmt::format("{:.0f} min", paths.duration_s / 60.0);
   auto text = fmt::format("{:.0f} m in {}", paths.travelled_m, duration);
   if (!recording.route.empty()) text = "route " + recording.route + ", " + text;
-  if (!recording.effects.empty()) text += "; disturbances: " + joined(recording.effects);
+  if (!recording.effects.empty()) text += "; effects: " + joined(recording.effects);
   return text;
 }
 

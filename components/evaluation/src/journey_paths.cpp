@@ -26,7 +26,7 @@ std::vector<PosePair> located(const std::vector<PosePair>& pairs, const JourneyR
   }
   if (kept.size() < kMinPairs) {
     throw InputError(run.folder / "states.csv", "the vehicle was never localised in the map",
-                     "use a landmark library of the same area, or none");
+                     "use a map of the same area, or none");
   }
   return kept;
 }
