@@ -98,7 +98,7 @@ fault_key() {
   plugins=$(build_folder)/panvo_plugins
   {
     sha256sum "$(program panvo_run)" "$plugins"/*.so
-    ldd "$(program panvo_run)" "$plugins"/*.so | sed -n 's/.*libpanvo_[^ ]* => \([^ ]*\).*/\1/p' | sort -u | xargs sha256sum
+    ldd "$(program panvo_run)" "$plugins"/*.so | sed -nE 's/.*libpanvo_[^ ]* => (.*) \(0x[0-9a-f]+\)$/\1/p' | sort -u | xargs -d '\n' sha256sum
     sha256sum "$PANVO_HOME/tests/fault_bench/faults.yaml"
   } | sha256sum | cut -c 1-16
 }

@@ -81,8 +81,8 @@ make_system_enclaves() {
     folder=$keystore/enclaves$name
     mkdir -p "$folder"
     system_rights "$described" "$container"
-    permissions_text "$name" "$rights_publish" "$rights_subscribe" >"$folder/permissions.xml"
-    rm -f "$folder/permissions.p7s"
+    rm -f "$folder/permissions.p7s"  # first: it never belongs to other permissions than those beside it
+    write_text "$folder/permissions.xml" permissions_text "$name" "$rights_publish" "$rights_subscribe"
     make_enclave "$keystore" "$name"
     note "$name has the permissions that container $container of $system needs"
   done < <(sed -n 's/^container //p' "$described")

@@ -49,4 +49,4 @@ rendered_dataset() {
 }
 
 # simulation_libraries PROGRAM: paths of the libraries of the simulation that the program is linked with, one per line.
-simulation_libraries() { ldd "$1" | sed -nE 's/.*libpanvo_simulat(ion|ed_world)[^ ]* => ([^ ]*).*/\2/p' | sort; }
+simulation_libraries() { ldd "$1" | sed -nE 's/.*libpanvo_simulat(ion|ed_world)[^ ]* => (.*) \(0x[0-9a-f]+\)$/\2/p' | sort; }

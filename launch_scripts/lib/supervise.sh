@@ -5,14 +5,15 @@
 # supervise FUNCTION ARGUMENT...: runs the function in its own process group and forwards SIGINT, SIGTERM and SIGHUP (as SIGTERM) to the group. After
 # a signal, waits until the group has ended. The exit status is that of the function, or 128 + the signal.
 supervise() {
-  local worker ended_by='' status=0
+  local worker='' ended_by='' status=0
+  trap 'ended_by=INT; end_group INT "$worker"' INT
+  trap 'ended_by=TERM; end_group TERM "$worker"' TERM
+  trap 'ended_by=HUP; end_group TERM "$worker"' HUP
   set -m  # without it the job would share our group and ignore SIGINT
   ("$@") &
   worker=$!
   set +m
-  trap 'ended_by=INT; kill -INT -- "-$worker" 2>/dev/null' INT
-  trap 'ended_by=TERM; kill -TERM -- "-$worker" 2>/dev/null' TERM
-  trap 'ended_by=HUP; kill -TERM -- "-$worker" 2>/dev/null' HUP
+  [[ -z $ended_by ]] || end_group TERM "$worker"  # it may have come before there was a group
   wait "$worker" || status=$?
   if [[ -n $ended_by ]]; then
     wait_for_group "$worker"
@@ -22,6 +23,9 @@ supervise() {
   trap - INT TERM HUP
   return "$status"
 }
+
+# end_group SIGNAL ID: ID may be empty.
+end_group() { [[ -z $2 ]] || kill "-$1" -- "-$2" 2>/dev/null || true; }
 
 # wait_for_group ID: waits until all processes of the group have ended; kills the rest after 30 s (a run needs 20 s at most to stop).
 wait_for_group() {
@@ -40,7 +44,7 @@ group_lives() {
   for file in /proc/[0-9]*/stat; do
     { read -r line <"$file"; } 2>/dev/null || continue
     read -r -a fields <<<"${line##*) }"  # state, parent, group
-    [[ ${fields[2]} != "$1" || ${fields[0]} == Z ]] || return 0
+    [[ ${fields[2]:-} != "$1" || ${fields[0]} == Z ]] || return 0  # none: a name with a line break
   done
   return 1
 }

@@ -32,6 +32,7 @@ run_to_its_end() {
   "$(program panvo_run)" "$@" --out "$out" || status=$?
   case $status in
     0) ;;
+    2) fail "the run was refused, see above" 2 ;;
     130 | 143) fail "interrupted; the results up to then are in $out" "$status" ;;
     *) fail "the run failed; its log is $out/run.log" ;;
   esac

@@ -114,6 +114,7 @@ show_all() {
 simulate_while_building() {
   local renderer log=$out/simulation.log
   ensure_built panvo_simulate
+  : >"$log"  # it is read below, perhaps before the rendering has begun
   simulated_dataset "$@" >"$out/.dataset" 2>"$log" &
   renderer=$!
   ensure_built "panvo_demo${live:+_live}"
@@ -141,7 +142,10 @@ claim_folder() {
   else
     base=$(runs_folder)
     mkdir -p -- "$base" || fail "cannot create '$base'; choose a folder with --out"
-    until mkdir -- "$base/demo-$n" 2>/dev/null; do n=$((n + 1)); done
+    until mkdir -- "$base/demo-$n" 2>/dev/null; do
+      [[ -e $base/demo-$n ]] || fail "cannot create '$base/demo-$n'; choose a folder with --out"
+      n=$((n + 1))
+    done
     out=$base/demo-$n
   fi
   readlink -f -- "$out"
@@ -174,7 +178,7 @@ $(result_line 'times' "$out/timing.json")
 $(result_line 'summary' "$out/summary.json")
 
 Next steps:
-  panvo bag info $out/bag
+  panvo bag info $(printf %q "$out/bag")
 EOT
   [[ -z $truth ]] || printf '  panvo evaluate %q %q\n' "$out" "$truth"
   cat <<EOT

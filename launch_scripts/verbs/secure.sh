@@ -76,9 +76,12 @@ make_keystore() {
   local keystore=$1
   mkdir -p "$keystore"/{private,public,enclaves}
   [[ -e $keystore/.gitignore ]] || printf '*\n' >"$keystore/.gitignore"  # keep keys out of repositories
-  if [[ ! -e $keystore/private/ca.key.pem ]]; then
-    make_key "$keystore/private/ca.key.pem"
-    run_openssl req -new -x509 -sha256 -days "$kKeyDays" -key "$keystore/private/ca.key.pem" -out "$keystore/public/ca.cert.pem" \
+  if [[ -e $keystore/public/ca.cert.pem && ! -e $keystore/private/ca.key.pem ]]; then
+    fail "$keystore has no private/ca.key.pem: create enclaves where the keystore was created" 2
+  fi
+  [[ -e $keystore/private/ca.key.pem ]] || make_key "$keystore/private/ca.key.pem"
+  if [[ ! -e $keystore/public/ca.cert.pem ]]; then
+    write_openssl "$keystore/public/ca.cert.pem" req -new -x509 -sha256 -days "$kKeyDays" -key "$keystore/private/ca.key.pem" \
       -config <(printf '%s\n' '[req]' 'distinguished_name=name' 'x509_extensions=authority' 'prompt=no' '[name]' 'CN=panvo authority' \
         '[authority]' 'basicConstraints=critical,CA:true' 'subjectKeyIdentifier=hash')
     note "created a keystore in $keystore"
@@ -88,7 +91,7 @@ make_keystore() {
     ln -sfn ca.key.pem "$keystore/private/$authority.key.pem"
     ln -sfn ca.cert.pem "$keystore/public/$authority.cert.pem"
   done
-  [[ -e $keystore/enclaves/governance.xml ]] || governance_text >"$keystore/enclaves/governance.xml"
+  [[ -e $keystore/enclaves/governance.xml ]] || write_text "$keystore/enclaves/governance.xml" governance_text
   [[ -e $keystore/enclaves/governance.p7s ]] || sign "$keystore" "$keystore/enclaves/governance"
 }
 
@@ -100,31 +103,47 @@ make_enclave() {
   ln -sfn "$up/public/identity_ca.cert.pem" "$folder/identity_ca.cert.pem"
   ln -sfn "$up/public/permissions_ca.cert.pem" "$folder/permissions_ca.cert.pem"
   ln -sfn "$up/enclaves/governance.p7s" "$folder/governance.p7s"
-  if [[ ! -e $folder/key.pem ]]; then
-    make_key "$folder/key.pem"
-    run_openssl req -new -sha256 -key "$folder/key.pem" -out "$folder/request.pem" \
+  [[ -e $folder/key.pem ]] || make_key "$folder/key.pem"
+  if [[ ! -e $folder/cert.pem ]]; then
+    write_openssl "$folder/request.pem" req -new -sha256 -key "$folder/key.pem" \
       -config <(printf '%s\n' '[req]' 'distinguished_name=name' 'prompt=no' '[name]' "CN=$name")
-    run_openssl x509 -req -sha256 -days "$kKeyDays" -in "$folder/request.pem" -CA "$keystore/public/identity_ca.cert.pem" \
-      -CAkey "$keystore/private/identity_ca.key.pem" -set_serial "0x$(openssl rand -hex 8)" -out "$folder/cert.pem"
+    write_openssl "$folder/cert.pem" x509 -req -sha256 -days "$kKeyDays" -in "$folder/request.pem" -CA "$keystore/public/identity_ca.cert.pem" \
+      -CAkey "$keystore/private/identity_ca.key.pem" -set_serial "0x$(openssl rand -hex 8)"
     rm "$folder/request.pem"
     note "created the keys of enclave $name"
   fi
-  [[ -e $folder/permissions.xml ]] || permissions_text "$name" '*' '*' >"$folder/permissions.xml"
+  [[ -e $folder/permissions.xml ]] || write_text "$folder/permissions.xml" permissions_text "$name" '*' '*'
   [[ -e $folder/permissions.p7s ]] || sign "$keystore" "$folder/permissions"
   tell_enclaves "$keystore"
 }
 
-make_key() { run_openssl ecparam -name prime256v1 -genkey -noout -out "$1"; }
+make_key() { write_openssl "$1" ecparam -name prime256v1 -genkey -noout; }
 
 # sign KEYSTORE FILE: signs FILE.xml and writes FILE.p7s.
 sign() {
-  run_openssl smime -sign -text -in "$2.xml" -out "$2.p7s" -signer "$1/public/permissions_ca.cert.pem" \
+  write_openssl "$2.p7s" smime -sign -text -in "$2.xml" -signer "$1/public/permissions_ca.cert.pem" \
     -inkey "$1/private/permissions_ca.key.pem"
 }
 
 run_openssl() {
   local said
   said=$(openssl "$@" 2>&1) || fail "openssl $1 failed: $said"
+}
+
+# write_openssl FILE ARGUMENT...: FILE is there once it is complete; after an interruption or a full disk, the command can be repeated.
+write_openssl() {
+  local file=$1
+  shift
+  run_openssl "$@" -out "$file.new"
+  mv -f -- "$file.new" "$file"
+}
+
+# write_text FILE COMMAND...: the same for the output of a command.
+write_text() {
+  local file=$1
+  shift
+  "$@" >"$file.new" || fail "cannot write $file"
+  mv -f -- "$file.new" "$file"
 }
 
 governance_text() {

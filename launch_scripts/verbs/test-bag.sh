@@ -20,7 +20,7 @@ Exit status 0: equal; 1: different; 2: nothing to compare.
   --within-m M      position tolerance, m; without --within-m and --within-deg, results must be bit-identical
   --within-deg D    orientation tolerance, degrees; give both if BAG or RESULTS comes from another machine
   --set C.P=V       set parameter P of component C
-  --out DIR         keep the results of this run in DIR (default: a temporary folder)
+  --out DIR         keep the results of this run in DIR (default: a temporary folder, which is kept if the run fails)
 
 EOT
 }
@@ -60,22 +60,24 @@ verb_main() {
 }
 
 replay_and_compare() {
+  local is_temporary=no
   use_built panvo_run panvo_compare_runs
   use_plugins
   if [[ -n $recorded ]]; then
     out=$recorded
   elif [[ -z $out ]]; then
     out=$(mktemp -d "${TMPDIR:-/tmp}/panvo-test-bag.XXXXXX")
-    # shellcheck disable=SC2064  # expand the folder now
-    trap "rm -rf '$out'" EXIT
+    is_temporary=yes
   fi
-  local kind=--bag
+  local kind=--bag status=0
   [[ ! -d $bag ]] || is_bag "$bag" || kind=--dataset
   note "replaying $bag through $(basename "$system" .yaml)"
   run_to_its_end "$out" "$system" "$kind" "$bag" --replay "${settings[@]}" >&2
   if [[ -n $recorded ]]; then
-    note "results are in $recorded; compare with: panvo test-bag $bag --expect $recorded --system $system"
+    note "results are in $recorded; compare with: panvo test-bag $(printf '%q --expect %q --system %q' "$bag" "$recorded" "$system")"
     return
   fi
-  "$(program panvo_compare_runs)" "$out" "$expected" "${tolerances[@]}"
+  "$(program panvo_compare_runs)" "$out" "$expected" "${tolerances[@]}" || status=$?
+  [[ $is_temporary == no ]] || rm -rf -- "$out"  # that of a failed run holds its log
+  return "$status"
 }

@@ -32,6 +32,10 @@ verb_main() {
         printf -v "${1#--}" '%s' "$2"
         shift
         ;;
+      --bag=* | --port=* | --host=* | --token=* | --rate=*)
+        set -- "${1%%=*}" "${1#*=}" "${@:2}"
+        continue
+        ;;
       --allow-control) handed_on+=(allow_control:=true) ;;
       -* | *:=*)
         hand_on "$@"
