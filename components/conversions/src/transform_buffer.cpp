@@ -51,6 +51,8 @@ std::vector<std::string> TransformBuffer::add(const tf2_msgs::msg::TFMessage& me
     Edge& edge = by_child_[child];
     if (is_static || edge.is_static || edge.parent != parent) edge = {parent, is_static};
     const std::int64_t stamp_ns = is_static ? 0 : conversions::stamp_ns(transform);
+    // Otherwise the old transforms, with later stamps, would hide the new ones.
+    if (!is_static && edge.stamps.add(stamp_ns) == vision::StampOrder::kSetBack) edge.parent_from_child.clear();
     edge.parent_from_child[stamp_ns] = *parent_from_child;
     while (edge.parent_from_child.begin()->first < edge.parent_from_child.rbegin()->first - kHistory_ns) {
       edge.parent_from_child.erase(edge.parent_from_child.begin());

@@ -118,6 +118,21 @@ TEST(TransformBuffer, KnowsNoMovingFrameOutsideItsTimes) {
   EXPECT_TRUE(transforms.lookup("odom", "base_link", 2 * kSecond));
 }
 
+TEST(TransformBuffer, ForgetsWhatWasBeforeTheClockWasSetBack) {
+  TransformBuffer transforms;
+  const auto add = [&](std::int64_t second, double x) {
+    transforms.add_moving(moving("odom", "base_link", second * kSecond, transform(x, 0.0)));
+  };
+  for (const std::int64_t second : {100, 101, 102}) add(second, 1.0);
+  for (std::int64_t second = 50; second < 60; ++second) add(second, 2.0);
+  ASSERT_TRUE(transforms.lookup("odom", "base_link", 59 * kSecond)) << "by more than the history";
+  EXPECT_DOUBLE_EQ(transforms.lookup("odom", "base_link", 59 * kSecond)->translation().x(), 2.0);
+  EXPECT_FALSE(transforms.lookup("odom", "base_link", 101 * kSecond));
+  for (std::int64_t second = 52; second < 65; ++second) add(second, 3.0);
+  EXPECT_DOUBLE_EQ(transforms.lookup("odom", "base_link", 58 * kSecond)->translation().x(), 3.0) << "by less";
+  EXPECT_FALSE(transforms.lookup("odom", "base_link", 51 * kSecond)) << "of the clock before";
+}
+
 TEST(TransformBuffer, ForgetsTheOldParentOfAFrame) {
   auto transforms = driving_vehicle();
   transforms.add_moving(moving("map", "base_link", 3 * kSecond, transform(5.0, 0.0)));

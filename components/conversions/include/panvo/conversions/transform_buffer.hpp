@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "panvo/vision/stamp_sequence.hpp"
 #include "tf2_msgs/msg/TFMessage.h"
 
 namespace panvo::conversions {
@@ -25,7 +26,8 @@ class TransformBuffer {
   /// Adds the transforms of a message on /tf_static; one of a known frame replaces the previous one. Invalid transforms
   /// are ignored and returned, one sentence each.
   std::vector<std::string> add_static(const tf2_msgs::msg::TFMessage& message);
-  /// Adds the transforms of a message on /tf, in any order of their stamps. Returns like add_static().
+  /// Adds the transforms of a message on /tf, in any order of their stamps; after the clock was set back, those before are
+  /// forgotten. Returns like add_static().
   std::vector<std::string> add_moving(const tf2_msgs::msg::TFMessage& message);
 
   /// target_from_source along a chain of static transforms; nullopt if there is none.
@@ -42,6 +44,7 @@ class TransformBuffer {
     std::string parent;
     bool is_static = true;
     std::map<std::int64_t, Eigen::Isometry3d> parent_from_child{};  // by stamp; a static one: of any stamp
+    vision::StampSequence stamps{};                                 // of a moving one
 
     std::optional<Eigen::Isometry3d> at(std::optional<std::int64_t> stamp_ns) const;
   };
