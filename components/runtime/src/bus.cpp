@@ -30,6 +30,7 @@ Channel& Bus::channel(const TopicDescription& topic) {
       throw ConfigError("topic " + topic.name + " has type " + there.type_name + " here, not " + topic.type_name +
                         ": remap one of the two topics in the system file");
     }
+    if (topic.type) found->second->learn_type(*topic.type);
     return *found->second;
   }
   auto& channel =

@@ -16,28 +16,44 @@ using interfaces::Durability;
 
 Channel::Channel(TopicDescription topic, Bridge* bridge, std::function<void(const std::string&)> warn,
                  std::function<std::int64_t()> clock, Limits limits)
-    : topic_(std::move(topic)),
+    : opened_(std::move(topic)),
       bridge_(bridge),
       warn_(std::move(warn)),
       limits_(limits),
-      offered_(topic_.qos),
-      requested_(topic_.qos),
-      history_(topic_, std::move(clock), history_folder(), warn_) {}
+      offered_(opened_.qos),
+      requested_(opened_.qos),
+      history_(opened_, std::move(clock), history_folder(), warn_) {}
+
+void Channel::learn_type(const interfaces::MessageType& type) {
+  const std::unique_lock lock(mutex_);
+  if (topic().type) return;
+  learnt_ = opened_;
+  learnt_.type = &type;
+  topic_ = &learnt_;
+}
+
+/// The message with the topic's type, if it came as bytes before that was known.
+SamplePtr Channel::typed(const SamplePtr& sample) const {
+  const auto* type = topic().type;
+  if (sample->type() || !type) return sample;
+  auto sender = std::make_shared<const std::string>(sample->sender());
+  return Sample::from_bytes(type, sample->type_name(), sample->bytes(), sample->time_ns(), std::move(sender));
+}
 
 TopicDescription Channel::with(const interfaces::Qos& qos) const {
-  TopicDescription topic = topic_;
-  topic.qos = qos;
-  return topic;
+  TopicDescription described = topic();
+  described.qos = qos;
+  return described;
 }
 
 void Channel::add_publisher(const void* owner, const std::string& owner_name,
                             const std::optional<interfaces::Qos>& qos) {
   const std::lock_guard writer_lock(bridge_writer_mutex_);
-  const interfaces::Qos wanted = qos.value_or(topic_.qos);
+  const interfaces::Qos wanted = qos.value_or(topic().qos);
   if (!publishers_.empty() && offered_ != wanted) {
-    throw ConfigError("topic " + topic_.name + " is also published by " + publishers_.begin()->second +
-                      " in this container, with another quality of service: set the same qos_overrides." + topic_.name +
-                      ".publisher parameters for both");
+    throw ConfigError("topic " + topic().name + " is also published by " + publishers_.begin()->second +
+                      " in this container, with another quality of service: set the same qos_overrides." +
+                      topic().name + ".publisher parameters for both");
   }
   std::unique_ptr<BridgeWriter> opened;
   if (bridge_ && !writer_) opened = bridge_->open_writer(with(wanted));
@@ -59,7 +75,7 @@ void Channel::remove_publisher(const void* owner) {
   publishers_.erase(owner);
   if (!publishers_.empty()) return;
   closed = std::move(writer_);
-  if (topic_.qos.lifespan.count() == 0) return;
+  if (topic().qos.lifespan.count() == 0) return;
   // A latched state expires with its publisher: later readers must not get it.
   history_.forget_those_from_here();
 }
@@ -96,15 +112,15 @@ bool Channel::has_readers_of_valid() const {
 
 /// What is to be requested with a further reader.
 interfaces::Qos Channel::agreed_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants) const {
-  const interfaces::Qos wanted = qos.value_or(topic_.qos);
+  const interfaces::Qos wanted = qos.value_or(topic().qos);
   if (readers_.empty()) return wanted;
   const bool is_same = requested_.requested == wanted.requested && requested_.durability == wanted.durability;
   if (is_same || wants == Wants::kAll) return requested_;
   if (has_readers_of_valid()) {
-    throw ConfigError("topic " + topic_.name +
+    throw ConfigError("topic " + topic().name +
                       " is also read by another component of this container, with another reliability or durability: "
                       "set the same qos_overrides." +
-                      topic_.name + ".subscription parameters for both");
+                      topic().name + ".subscription parameters for both");
   }
   return wanted;
 }
@@ -121,15 +137,18 @@ void Channel::add_reader(const void* owner, Reader reader, Wants wants, const st
     readers_.push_back(member);
   }
   if (bridge_ && !bridge_reader_)
-    bridge_reader_ = bridge_->open_reader(with(requested_),
-                                          [this](const SamplePtr& sample) { deliver(sample, check(sample), false); });
+    bridge_reader_ = bridge_->open_reader(with(requested_), [this](const SamplePtr& sample) {
+      const auto message = typed(sample);
+      deliver(message, check(message), false);
+    });
 }
 
 void Channel::pass_history_to(const Member& member) {
   for (const auto& entry : history_.current()) {
-    const bool is_to_be_checked = member.wants == Wants::kValid && topic_.type && !entry.is_checked;
-    if (is_to_be_checked && is_rejected(Sample::unread(entry.sample))) continue;
-    member.reader(topic_, Sample::unread(entry.sample));
+    const bool is_to_be_checked = member.wants == Wants::kValid && topic().type && !entry.is_checked;
+    const auto sample = typed(Sample::unread(entry.sample));
+    if (is_to_be_checked && is_rejected(sample)) continue;
+    member.reader(topic(), sample);
   }
 }
 
@@ -153,13 +172,14 @@ void Channel::add_observer(Reader observer) {
   observers_.push_back(std::move(observer));
 }
 
-void Channel::publish(const SamplePtr& sample) {
+void Channel::publish(const SamplePtr& published) {
   ++published_;
+  const SamplePtr sample = typed(published);
   const Verdict verdict = check(sample);
   deliver(sample, verdict, true);
   if (verdict == Verdict::kInvalid) return;
   const std::shared_lock lock(mutex_);
-  for (const auto& observer : observers_) observer(topic_, sample);
+  for (const auto& observer : observers_) observer(topic(), sample);
   if (!writer_) return;
   if (!sends_history()) {
     if (!writer_->write(sample)) ++not_sent_;
@@ -201,7 +221,7 @@ bool Channel::send_next() {
 
 /// Received bytes that only recorders and other processes read are not decoded here; their readers check them.
 bool Channel::is_to_be_checked(const Sample& sample) const {
-  if (!topic_.type) return false;
+  if (!topic().type) return false;
   if (sample.received_size() == 0) return true;
   const std::shared_lock lock(mutex_);
   return has_readers_of_valid();
@@ -214,7 +234,7 @@ Channel::Verdict Channel::check(const SamplePtr& sample) {
 
 bool Channel::is_rejected(const SamplePtr& sample) {
   const auto problem = problem_of(*sample, limits_.max_message_bytes);
-  if (!problem || !rejections_.add(topic_.name, *problem, sample->sender())) return problem.has_value();
+  if (!problem || !rejections_.add(topic().name, *problem, sample->sender())) return problem.has_value();
   const std::lock_guard lock(untold_mutex_);
   untold_.emplace_back(sample->sender(), *problem);
   return true;
@@ -228,12 +248,13 @@ void Channel::deliver(const SamplePtr& sample, Verdict verdict, bool is_from_her
   const bool is_latched = is_valid && qos.durability == Durability::kTransientLocal;
   const SamplePtr passed = is_latched ? history_.add(sample, is_from_here, verdict == Verdict::kValid) : sample;
   for (const auto& [owner, reader, wants] : readers_) {
-    if (is_valid || wants == Wants::kAll) reader(topic_, Sample::unread(passed));
+    // A reader that knows the type may have come since the message was made.
+    if (is_valid || wants == Wants::kAll) reader(topic(), typed(Sample::unread(passed)));
   }
 }
 
 RejectedMessages::Count Channel::rejected() const {
-  auto rejected = rejections_.snapshot()[topic_.name];
+  auto rejected = rejections_.snapshot()[topic().name];
   for (auto causes = std::exchange(rejected.causes, {}); const auto& [cause, count] : causes) {
     rejected.causes[{shown_sender(cause.first), cause.second}] += count;
   }
@@ -247,7 +268,7 @@ void Channel::tell_rejected() {
     causes.swap(untold_);
   }
   for (const auto& [sender, reason] : causes) {
-    warn_(fmt::format("{}: a message from {} was dropped: {}", topic_.name, shown_sender(sender), reason));
+    warn_(fmt::format("{}: a message from {} was dropped: {}", topic().name, shown_sender(sender), reason));
   }
 }
 

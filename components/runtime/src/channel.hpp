@@ -35,7 +35,10 @@ class Channel {
   Channel(TopicDescription topic, Bridge* bridge, std::function<void(const std::string&)> warn,
           std::function<std::int64_t()> clock, Limits limits = {});
 
-  const TopicDescription& topic() const noexcept { return topic_; }
+  /// The reference holds as long as the channel.
+  const TopicDescription& topic() const noexcept { return *topic_; }
+  /// Of a topic that was opened as bytes only, by a recorder or a player, before a component came that knows its type.
+  void learn_type(const interfaces::MessageType& type);
 
   /// `qos`: overrides that of the topic. Throws ConfigError if another publisher of this process has another one.
   void add_publisher(const void* owner, const std::string& owner_name,
@@ -59,7 +62,7 @@ class Channel {
   /// Calls `observer` only for messages published in this process.
   void add_observer(Reader observer);
 
-  void publish(const SamplePtr& sample);
+  void publish(const SamplePtr& published);
   /// Sends the history of a topic that keeps all, once another process reads it. Call periodically.
   void send_history();
 
@@ -82,6 +85,7 @@ class Channel {
   };
   enum class Verdict { kValid, kInvalid, kNotChecked };
 
+  SamplePtr typed(const SamplePtr& sample) const;
   bool is_to_be_checked(const Sample& sample) const;
   Verdict check(const SamplePtr& sample);
   bool is_rejected(const SamplePtr& sample);
@@ -95,7 +99,9 @@ class Channel {
   bool sends_history() const;
   bool send_next();
 
-  const TopicDescription topic_;
+  const TopicDescription opened_;  // as the first user described it
+  TopicDescription learnt_;        // the same with its type; set once, before topic_ points here
+  std::atomic<const TopicDescription*> topic_ = &opened_;
   Bridge* const bridge_;
   const std::function<void(const std::string&)> warn_;
   const Limits limits_;

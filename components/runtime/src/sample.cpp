@@ -71,7 +71,7 @@ const void* Sample::message() const {
 const Sample::Bytes& Sample::bytes() const {
   const std::lock_guard lock(mutex_);
   read_stored();
-  if (bytes_.empty()) {
+  if (bytes_.empty() && message_) {
     Bytes bytes(type_->serialized_size(message_.get()));
     type_->serialize(message_.get(), bytes);
     bytes_ = std::move(bytes);
@@ -82,13 +82,13 @@ const Sample::Bytes& Sample::bytes() const {
 std::size_t Sample::serialized_size() const {
   const std::lock_guard lock(mutex_);
   read_stored();
-  return bytes_.empty() ? type_->serialized_size(message_.get()) : bytes_.size();
+  return bytes_.empty() && message_ ? type_->serialized_size(message_.get()) : bytes_.size();
 }
 
 void Sample::serialize_to(std::span<std::uint8_t> out) const {
   const std::lock_guard lock(mutex_);
   read_stored();
-  if (bytes_.empty()) {
+  if (bytes_.empty() && message_) {
     type_->serialize(message_.get(), out);
   } else {
     std::ranges::copy(bytes_, out.begin());

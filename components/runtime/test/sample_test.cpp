@@ -66,6 +66,12 @@ TEST(Sample, ReadsItsMessageFromBytes) {
   EXPECT_EQ(*Sample::as<sensor_msgs::msg::Image>(received), image);
 }
 
+TEST(Sample, OfAnUnknownTypeMayBeEmpty) {
+  const SamplePtr sample = Sample::from_bytes(nullptr, "other_msgs/msg/Other", {}, 0);
+  EXPECT_TRUE(sample->bytes().empty());
+  EXPECT_EQ(sample->serialized_size(), 0U);
+}
+
 TEST(Sample, RefusesBytesThatAreNoMessageOfItsType) {
   const auto& type = interfaces::message_type<sensor_msgs::msg::Image>();
   const SamplePtr sample = Sample::from_bytes(&type, "sensor_msgs/msg/Image", {0, 1, 0, 0, 9}, 0);
