@@ -12,8 +12,8 @@ namespace {
 
 void say_nothing(runtime::LogLevel, const std::string&, const std::string&) {}
 
-void describe_container(const runtime::ContainerDescription& description) {
-  runtime::Container container({.replay = true, .log = say_nothing});
+void describe_container(const runtime::ContainerDescription& description, bool is_part_of_system) {
+  runtime::Container container({.replay = true, .log = say_nothing, .is_part_of_system = is_part_of_system});
   container.load_all(description.components);
   const auto links = container.links();
   std::cout << "container " << description.name << "\n";
@@ -30,7 +30,7 @@ void describe_container(const runtime::ContainerDescription& description) {
 }  // namespace
 
 void describe(const runtime::SystemDescription& system) {
-  for (const auto& container : system.containers) describe_container(container);
+  for (const auto& container : system.containers) describe_container(container, system.containers.size() > 1);
 }
 
 }  // namespace panvo::runner

@@ -31,6 +31,7 @@ void Container::load_all(const std::vector<ComponentDescription>& descriptions) 
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
+  if (problems.empty()) problems = implementation_->parameters_of_no_node();
   if (!problems.empty()) throw ConfigError(std::move(problems));
 }
 

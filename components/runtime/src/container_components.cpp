@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <set>
 
 #include "clocks.hpp"
+#include "config/suggestion.hpp"
 #include "container_implementation.hpp"
 #include "node_services/parameter_events.hpp"
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/graph.hpp"
+#include "panvo/runtime/problems.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -193,6 +197,39 @@ auto Container::Implementation::load(const ComponentDescription& description, bo
     }
     throw ConfigError(std::move(problems));
   }
+}
+
+/// Values for several nodes whose parameter none of them has: problems, unless another container may have it.
+std::vector<std::string> Container::Implementation::parameters_of_no_node() {
+  struct Value {
+    const WrittenValue* written;
+    std::string name;
+    bool is_known = false;
+    std::set<std::string> known;  // to those for which it is
+  };
+  std::map<std::pair<std::string, std::string>, Value> values;  // by place and name
+  const auto look = [&](const WrittenValues& written, const Context::State& state) {
+    const auto parameters = state.parameters();
+    for (const auto& [name, one] : written) {
+      if (!one.is_for_several) continue;
+      auto& value = values.try_emplace({one.where.to_string(), name}, Value{&one, name, false, {}}).first->second;
+      value.is_known |= std::ranges::find(parameters, name, &ParameterDescription::name) != parameters.end();
+      for (const auto& parameter : parameters) value.known.insert(parameter.name);
+    }
+  };
+  look(options_.parameters, own_.state());
+  for_each([&](const std::string&, const Context::State& state) { look(state.description.parameters, state); });
+  Problems problems;
+  for (const auto& [place, value] : values) {
+    if (value.is_known) continue;
+    problems.add(value.written->where, fmt::format("no node has a parameter \"{}\"{}", value.name,
+                                                   suggestion(value.name, {value.known.begin(), value.known.end()})));
+  }
+  auto sorted = problems.sorted();
+  if (!options_.is_part_of_system) return sorted;
+  for (const auto& problem : sorted)
+    log(LogLevel::kWarning, "container", problem + ", unless another container has it");
+  return {};
 }
 
 bool Container::Implementation::unload(const std::string& name) {

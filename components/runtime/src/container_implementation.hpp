@@ -36,6 +36,7 @@ class Container::Implementation final : public node_services::ControlledContaine
   Loaded add(Recipe recipe);
   Loaded load(const ComponentDescription& description, bool by_request);
   bool unload(const std::string& name);
+  std::vector<std::string> parameters_of_no_node();
   Loaded load_component(const ComponentDescription& description) override;
   void unload_component(std::uint64_t id) override;
   std::vector<Loaded> loaded_components() const override;

@@ -149,7 +149,7 @@ TEST(Plugin, WithoutThatComponentIsRefusedAndSaysWhichItHas) {
   ComponentDescription description = relay();
   description.plugin = "RelyComponent";
   EXPECT_THAT(why_not(description),
-              HasSubstr("has no component RelyComponent; it has BrokenComponent, RelayComponent"));
+              HasSubstr("has no component RelyComponent; it has BareComponent, BrokenComponent, RelayComponent"));
 }
 
 TEST(Plugin, WhoseComponentCannotBeMadeSaysWhyAndIsUnloaded) {
@@ -167,6 +167,37 @@ TEST(Plugin, WithBadParametersNamesEveryOneWithItsLine) {
   EXPECT_THAT(problems, HasSubstr("system.yaml:12"));
   EXPECT_THAT(problems, HasSubstr("system.yaml:13"));
   EXPECT_THAT(problems, HasSubstr("did you mean"));
+}
+
+/// Loads a relay and a component without parameters with a value for several nodes.
+std::string why_not_all(ContainerOptions options, const std::string& parameter) {
+  ComponentDescription first = relay(), second = relay();
+  second.name = "other";
+  second.plugin = "BareComponent";
+  for (auto* description : {&first, &second}) description->parameters[parameter] = {{"2"}, false, {"p.yaml", 3}, true};
+  Container container(std::move(options));
+  try {
+    container.load_all({first, second});
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "loaded";
+}
+
+TEST(Plugin, IgnoresAValueForSeveralNodesThatAnotherOneHas) {
+  EXPECT_EQ(why_not_all({.replay = true}, "copies"), "loaded");
+}
+
+TEST(Plugin, RefusesAValueForSeveralNodesThatNoneHas) {
+  EXPECT_EQ(why_not_all({.replay = true}, "copes"),
+            "p.yaml:3: no node has a parameter \"copes\"; did you mean \"copies\"?");
+}
+
+TEST(Plugin, OfAPartOfASystemWarnsOfAValueForSeveralNodesThatAnotherPartMayHave) {
+  std::string log;
+  const auto write = [&](LogLevel, const std::string&, const std::string& text) { log += text; };
+  EXPECT_EQ(why_not_all({.replay = true, .log = write, .is_part_of_system = true}, "copes"), "loaded");
+  EXPECT_THAT(log, HasSubstr("p.yaml:3: no node has a parameter \"copes\""));
 }
 
 }  // namespace

@@ -106,7 +106,8 @@ int apply_name(SystemDescription& system, const std::string& rule, const Assignm
 
 void apply_parameter(SystemDescription& system, const std::string& assignment) {
   const Assignment parts = parse_assignment("-p", assignment);
-  const WrittenValue value = value_of(assignment, parts.value);
+  WrittenValue value = value_of(assignment, parts.value);
+  value.is_for_several = parts.node.empty();
   const bool is_for_containers = !parts.node.empty() || NodeParameters::others({{parts.name, value}}).empty();
   const int count = for_nodes(
       system, parts.node,

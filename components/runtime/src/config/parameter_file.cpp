@@ -60,6 +60,7 @@ class ParameterFile {
       sections_ += (sections_.empty() ? "" : ", ") + name;
       if (section_is_for(name, node_)) {
         any_for_node_ = true;
+        is_for_several_ = name.find('*') != std::string::npos;
         read_values(pair.second, "", 0);
       }
     }
@@ -81,6 +82,7 @@ class ParameterFile {
       if (pair.second.IsMap()) {
         read_values(pair.second, name + ".", depth + 1);
       } else if (auto value = written_value(pair.second, name, location_of(file_, pair.first), scope_, findings_)) {
+        value->is_for_several = is_for_several_;
         values_[name] = std::move(*value);
       }
     }
@@ -96,6 +98,7 @@ class ParameterFile {
   Findings& findings_;
   bool any_section_ = false;
   bool any_for_node_ = false;
+  bool is_for_several_ = false;  // the section that is being read
   std::string sections_;
   WrittenValues values_;
 };

@@ -179,7 +179,7 @@ std::vector<std::string> ParameterReader::problems() const {
   }
   Problems all = problems_;
   for (const auto& [name, written] : written_) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (!written.is_for_several && std::find(names.begin(), names.end(), name) == names.end()) {
       all.add(written.where, owner_ + " has no parameter \"" + name + "\"" + suggestion(name, names));
     }
   }

@@ -78,6 +78,8 @@ TEST_F(NodeArguments, SetParameters) {
     EXPECT_THAT(component.parameters.at("use_sim_time").items, ElementsAre("true"));
   EXPECT_THAT(container.components[1].parameters.at("weights").items, ElementsAre("3", "4.5"));
   EXPECT_FALSE(container.components[0].parameters.contains("weights"));
+  EXPECT_TRUE(container.components[1].parameters.at("use_sim_time").is_for_several);
+  EXPECT_FALSE(container.components[1].parameters.at("weights").is_for_several);
 }
 
 TEST_F(NodeArguments, SayWhatIsWrong) {

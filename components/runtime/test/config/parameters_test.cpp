@@ -244,6 +244,14 @@ TEST(ParameterReader, ComplainsOfAnyValueToAComponentWithoutParameters) {
   EXPECT_THAT(reader.problems(), ElementsAre("--set: rectifier has no parameter \"gain\"; there are none"));
 }
 
+TEST(ParameterReader, LeavesAValueForSeveralNodesToThoseThatHaveItsParameter) {
+  WrittenValue wrong = written("red"), unknown = written("red", 2);
+  wrong.is_for_several = unknown.is_for_several = true;
+  ParameterReader reader("tracker", {{"max_features", wrong}, {"colour", unknown}});
+  reader.read<Tracker>();
+  EXPECT_THAT(reader.problems(), ElementsAre(HasSubstr("stereo.yaml:1: tracker.max_features = red")));
+}
+
 TEST(ConfigError, SaysEveryProblemOnALineOfItsOwn) {
   const ConfigError error(std::vector<std::string>{"a.yaml:1: one", "a.yaml:2: two"});
   EXPECT_STREQ(error.what(), "a.yaml:1: one\na.yaml:2: two");

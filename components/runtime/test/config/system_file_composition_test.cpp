@@ -183,7 +183,10 @@ other:
   EXPECT_EQ(parameters.size(), 4U);
   EXPECT_THAT(parameters.at("gain").items, ElementsAre("3"));
   EXPECT_EQ(parameters.at("gain").where.to_string(), (folder_.path() / "p.yaml:10").string());
+  EXPECT_FALSE(parameters.at("gain").is_for_several);
   EXPECT_THAT(parameters.at("tracker.max_features").items, ElementsAre("400"));
+  EXPECT_FALSE(parameters.at("tracker.max_features").is_for_several);
+  EXPECT_TRUE(parameters.at("tracker.radius").is_for_several) << "from a section with a wildcard";
   EXPECT_THAT(parameters.at("tracker.radius").items, ElementsAre("1", "2"));
   EXPECT_THAT(parameters.at("path").items, ElementsAre("$(dirname)"));
   parameters = parameters_of("       param: [{from: p.yaml, allow_substs: true}]");

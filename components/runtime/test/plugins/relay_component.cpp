@@ -45,4 +45,12 @@ class BrokenComponent final : public Component {
 
 PANVO_REGISTER_COMPONENT(BrokenComponent)
 
+/// One without parameters.
+class BareComponent final : public Component {
+ public:
+  explicit BareComponent(Context&) {}
+};
+
+PANVO_REGISTER_COMPONENT(BareComponent)
+
 }  // namespace

@@ -32,6 +32,8 @@ struct ContainerOptions {
   std::string name = "container";
   std::string name_space = "/";
   WrittenValues parameters{};  ///< of that node: use_sim_time, qos_overrides
+  /// Other containers belong to the system, and may have the parameters that no component here has.
+  bool is_part_of_system = false;
   ServiceAccess services = ServiceAccess::kByHost;
   std::filesystem::path files_below{};  ///< folder for files named by service requests; empty: none allowed
 };
@@ -61,7 +63,8 @@ class Container {
   /// Adds a component that is linked into the executable. Throws like load().
   void add(const ComponentDescription& description, const Factory& factory);
 
-  /// Loads all components, then throws one ConfigError with all problems, if any.
+  /// Loads all components, then throws one ConfigError with all problems, if any. A value for several nodes whose
+  /// parameter none of them has is a problem, too, or a warning if the container is a part of a system.
   void load_all(const std::vector<ComponentDescription>& descriptions);
 
   /// Destroys a component and releases its plugin. Returns false if there is no such component. Throws ConfigError if

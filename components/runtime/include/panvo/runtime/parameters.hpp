@@ -21,6 +21,7 @@ struct WrittenValue {
   std::vector<std::string> items;
   bool is_list = false;
   Location where;
+  bool is_for_several = false;  ///< given for several nodes at once ("/**"): those without such a parameter ignore it
 };
 
 /// Configured values of one component: parameter name ("tracker.max_features") to value.
@@ -96,7 +97,8 @@ class ParameterReader {
   const std::vector<ParameterDescription>& declared() const noexcept { return declared_; }
 
   /// All invalid values and all configured keys that no read() has declared (with the nearest declared name), each with
-  /// file and line, in order of line. Call it after the component's constructor, when all declarations are known.
+  /// file and line, in order of line; not those of values for several nodes, which another one may have. Call it after
+  /// the component's constructor, when all declarations are known.
   std::vector<std::string> problems() const;
 
  private:

@@ -69,7 +69,7 @@ struct SystemDescription {
 ///           plugin: BinocularOdometryComponent
 ///           name: binocular_odometry
 ///           param:
-///           - from: $(dirname)/../rigs/$(var rig)/odometry.yaml     # a ROS 2 parameter file
+///           - from: $(dirname)/../rigs/$(var rig)/odometry.yaml  # ROS 2 parameter file; "/**": nodes that have it
 ///           - {name: tracking.max_features, value: 500}
 ///           remap:
 ///           - {from: stereo/left/image_rect, to: /camera/left/image_rect}
@@ -86,8 +86,8 @@ SystemDescription read_system_file(const std::filesystem::path& file,
 /// Throws ConfigError if there is none.
 void apply_setting(SystemDescription& system, const std::string& setting);
 
-/// Sets a parameter by ROS 2's option -p: "use_sim_time:=true" for all nodes, "NODE:NAME:=VALUE" for one. Throws
-/// ConfigError if there is no such node.
+/// Sets a parameter by ROS 2's option -p: "use_sim_time:=true" for all nodes that have it, "NODE:NAME:=VALUE" for
+/// one. Throws ConfigError if there is no such node.
 void apply_parameter(SystemDescription& system, const std::string& assignment);
 
 /// Applies a rule of ROS 2's option -r: "__ns:=/NS" puts all nodes into a namespace, "__node:=NAME" names the container,
