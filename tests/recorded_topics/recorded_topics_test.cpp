@@ -186,7 +186,7 @@ TEST_P(RecordedTopics, WithOtherNamesAndWithoutCalibrationArePlayedAsBagInfoSays
   const Finished played =
       run({PANVO_RUN, kStereo, "--bag", foreign, "--calibration", folder_ / "calibration", "-r",
            "/cam0/image_raw:=/stereo/left/image_raw", "-r", "/cam1/image_raw:=/stereo/right/image_raw", "--set",
-           "stereo_calibration.mount=[0, 0, 0, 0, 0, 0]", "--out", folder_ / "played", "--replay"},
+           "stereo_calibration.mount_xyz_rpy=[0, 0, 0, 0, 0, 0]", "--out", folder_ / "played", "--replay"},
           seconds(200));
   ASSERT_EQ(played.status, 0) << played.output;
   const Finished known = play("known", {"--replay"});

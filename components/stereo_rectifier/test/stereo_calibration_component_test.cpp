@@ -84,6 +84,31 @@ TEST_F(StereoCalibration, TellsOnceWhereTheLeftCameraIsMounted) {
   EXPECT_TRUE((base_from_camera->linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
 }
 
+TEST_F(StereoCalibration, TakesTheMountOfExtrinsicsYaml) {
+  load({{"mount_xyz_rpy", "[0.5, 0.1, 1.2, 0, 0, 90]"}, {"panorama_mount_xyz_rpy", "[0, 0, 1.9, 90, 0, 0]"}});
+  publish_image(topics::kStereoLeftImageRaw, 1, "cam0");
+  publish_image(topics::kPanorama, 2, "pano");
+  ASSERT_THAT(transforms_, SizeIs(2));
+  conversions::TransformBuffer buffer;
+  EXPECT_THAT(buffer.add_static(*transforms_[1]), IsEmpty());
+  const Eigen::Isometry3d left = buffer.lookup("base_link", "cam0").value();
+  EXPECT_TRUE((left.linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitY(), 1e-12))
+      << "yaw: to the left";
+  const Eigen::Isometry3d panorama = buffer.lookup("base_link", "pano").value();
+  EXPECT_TRUE((panorama.linear() * Eigen::Vector3d::UnitX()).isApprox(-Eigen::Vector3d::UnitZ(), 1e-12))
+      << "roll: the right of the image is below";
+  EXPECT_FALSE(harness_.log_contains("obsolete"));
+}
+
+TEST_F(StereoCalibration, TellsHowItReadsAMountInTheOrderThatIsItsOwn) {
+  load({{"mount", "[0, 0, 1.9, 3, 2, 1]"}});
+  EXPECT_TRUE(harness_.log_contains("mount is obsolete: read as yaw 3, pitch 2, roll 1 degrees"));
+}
+
+TEST_F(StereoCalibration, RefusesTwoMountsOfOneCamera) {
+  EXPECT_THROW(load({{"mount", "[0, 0, 0, 0, 0, 0]"}, {"mount_xyz_rpy", "[0, 0, 0, 0, 0, 0]"}}), runtime::ConfigError);
+}
+
 TEST_F(StereoCalibration, TellsWhereBothCamerasAreMounted) {
   load({{"mount", "[0.5, 0.1, 1.2, 0, 0, 0]"}, {"panorama_mount", "[0, 0, 1.9, 0, 0, 0]"}});
   publish_image(topics::kStereoLeftImageRaw, 1, "cam0");
