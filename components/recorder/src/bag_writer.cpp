@@ -24,10 +24,15 @@ constexpr std::chrono::seconds kMetadataPeriod{5};
 /// Of latched messages repeated in each file; less where the files are small.
 constexpr std::uint64_t kMaxLatchedBytes = 16u << 20;
 
+/// The files are named after the folder, which has no name in "bag/".
+fs::path without_slash_at_end(const fs::path& folder) {
+  return folder.filename().empty() ? folder.parent_path() : folder;
+}
+
 }  // namespace
 
 BagWriter::BagWriter(fs::path bag, Options options)
-    : bag_(fs::absolute(bag).lexically_normal()), options_(std::move(options)) {
+    : bag_(without_slash_at_end(fs::absolute(bag).lexically_normal())), options_(std::move(options)) {
   if (options_.storage == Storage::kSqlite3 && options_.compression != Compression::kNone) {
     throw BagError(bag_.string() + ": the storage sqlite3 does not support compression; choose the storage mcap for " +
                    to_text(options_.compression));

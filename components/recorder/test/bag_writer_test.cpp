@@ -46,6 +46,16 @@ TEST(BagWriter, WritesWhatTheReaderReads) {
   EXPECT_EQ(metadata.topics[0].type_description_hash, topic("").type_description_hash);
 }
 
+TEST(BagWriter, NamesItsFilesAfterAFolderThatEndsWithASlash) {
+  const TemporaryFolder folder;
+  {
+    BagWriter writer((folder / "bag").string() + "/");
+    write_numbered(writer, 3, 100);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "bag" / "bag_0.db3"));
+  EXPECT_EQ(BagReader(folder / "bag").metadata().message_count, 3U);
+}
+
 TEST(BagWriter, StoresOurTypesWithHashAndDefinition) {
   const TemporaryFolder folder;
   const auto* type = interfaces::find_message_type("nav_msgs/msg/Odometry");
