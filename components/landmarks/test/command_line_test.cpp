@@ -89,6 +89,13 @@ TEST_F(Command, InfoTellsItToScripts) {
   EXPECT_TRUE(json["damage"].is_null());
 }
 
+TEST_F(Command, InfoToScriptsIsUtf8WhateverTheFileIsCalled) {
+  const auto file = (folder_ / "caf\xe9").string();  // Latin-1
+  write(file, {1});
+  EXPECT_THAT(std::string(nlohmann::json::parse(run("info --json " + file).output)["store"]),
+              testing::EndsWith("caf\xef\xbf\xbd"));
+}
+
 TEST_F(Command, InfoOfAnEmptyStoreHasNoExtent) {
   { LandmarkStore empty(folder_ / "empty", settings_); }
   EXPECT_THAT(run("info " + (folder_ / "empty").string()).output, HasSubstr("Landmarks:     0, 0 of them"));

@@ -141,7 +141,7 @@ std::string describe_as_json(const StoreInfo& info) {
   for (const auto& pair : info.close) {
     json["close"].push_back({{"first", pair.first}, {"second", pair.second}, {"distance_m", pair.distance_m}});
   }
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace panvo::landmarks

@@ -112,6 +112,14 @@ TEST_F(PlacesCommand, WritesTablesAndPictures) {
   EXPECT_LT(cv::mean(difference)[0], 25.0);
 }
 
+TEST_F(PlacesCommand, WritesUtf8WhateverTheImagesAreCalled) {
+  ASSERT_EQ(build().status, 0);
+  fs::rename(seen_ / "1.png", seen_ / "caf\xe9.png");  // Latin-1
+  const auto matched = run("match " + seen_.string() + " --library " + library_ + " --json", "");
+  EXPECT_EQ(matched.status, 0);
+  EXPECT_THAT(nlohmann::json::parse(matched.output).dump(), HasSubstr("caf\xef\xbf\xbd.png"));
+}
+
 TEST_F(PlacesCommand, RefusesWhatItCannotUse) {
   EXPECT_EQ(run("").status, 2);
   EXPECT_EQ(run("build /absent --out " + library_).status, 2);

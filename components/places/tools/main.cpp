@@ -132,15 +132,17 @@ int match(const Arguments& arguments) {
     if (!arguments.as_json) std::printf("%s\n", line_of(answer, finder.places()).c_str());
   }
   const nlohmann::json report{{"library", arguments.library}, {"images", json}};
+  const auto text =
+      report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);  // file names may be in Latin-1
   if (arguments.as_json) {
-    std::printf("%s\n", report.dump(2).c_str());
+    std::printf("%s\n", text.c_str());
   } else {
     std::printf("%zu images: %zu found, %zu unknown, %zu skipped\n", images.size(), found,
                 images.size() - found - skipped, skipped);
   }
   if (!arguments.out.empty()) {
     write(fs::path(arguments.out) / "places.csv", csv);
-    write(fs::path(arguments.out) / "places.json", report.dump(2) + "\n");
+    write(fs::path(arguments.out) / "places.json", text + "\n");
   }
   return skipped == 0 ? kWell : kSkipped;
 }

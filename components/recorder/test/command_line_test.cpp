@@ -65,6 +65,13 @@ TEST_F(Command, InfoTellsItToScripts) {
   EXPECT_EQ(json["topics"][0]["count"], 11);
 }
 
+TEST_F(Command, InfoToScriptsIsUtf8WhateverTheBagIsCalled) {
+  const auto bag = folder_ / "caf\xe9";  // Latin-1
+  std::filesystem::rename(folder_ / "bag", bag);
+  EXPECT_THAT(std::string(nlohmann::json::parse(run("info --json " + bag.string()).output)["bag"]),
+              testing::EndsWith("caf\xef\xbf\xbd"));
+}
+
 TEST_F(Command, DiffEndsWithOneWhereBagsDiffer) {
   EXPECT_EQ(run("copy " + bag_ + " " + (folder_ / "copy").string()).status, 0);
   EXPECT_EQ(run("diff --times " + bag_ + " " + (folder_ / "copy").string()).status, 0);

@@ -144,7 +144,7 @@ std::string describe_as_json(const BagReader& bag) {
   for (const auto& rename : proposal.renames) json["inputs"]["renames"][rename.recorded] = rename.read_as;
   json["custom_data"] = metadata.custom_data;
   json["warnings"] = bag.warnings();
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace panvo::recorder
