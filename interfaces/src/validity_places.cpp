@@ -7,8 +7,6 @@ namespace panvo::interfaces {
 namespace {
 
 constexpr std::size_t kMaxLandmarks = 1'000'000;  // ten thousand landmarks cover a town
-// New landmarks are counted from the highest id on, which must not take them past 32 bits to 0 [kMaxLandmarkId].
-constexpr std::uint32_t kMaxId = 4'000'000'000;
 
 void check_features(Check& check, std::string_view name, const std::vector<panvo_msgs::msg::AdaptiveFeature>& features,
                     const DescriptionSize& size) {
@@ -25,7 +23,7 @@ Problem problem_of(const panvo_msgs::msg::PanoramicLandmark& message) {
   Check check;
   check_header(check, message.header());
   check.require(message.id() != 0, "id", "is 0");
-  check.require(message.id() <= kMaxId, "id", "is above 4000000000");
+  check.require(message.id() <= kMaxLandmarkId, "id", "is above 4000000000");
   check_pose(check, "pose.pose", message.pose().pose());
   check.covariance("pose.covariance", message.pose().covariance());
   check_pose(check, "panorama_pose", message.panorama_pose());
@@ -52,7 +50,7 @@ Problem problem_of(const panvo_msgs::msg::LandmarkPoses& message) {
   check.require(message.ids().size() == message.poses().size(), "poses", "differ in number from ids");
   for (const auto id : message.ids()) {
     check.require(id != 0, "ids", "contain 0");
-    check.require(id <= kMaxId, "ids", "contain one above 4000000000");
+    check.require(id <= kMaxLandmarkId, "ids", "contain one above 4000000000");
   }
   for (const auto& pose : message.poses()) {
     if (!check.holds()) break;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/landmarks/landmark_library.hpp"
+#include "panvo/interfaces/place_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ LandmarkLibrary::LandmarkLibrary(std::shared_ptr<const LandmarkSource> source, D
 
 std::uint32_t LandmarkLibrary::add(PanoramicLandmark landmark) {
   if (landmark.id == 0) landmark.id = next_id();
-  if (landmark.id > kMaxLandmarkId) throw std::invalid_argument("the library has no ids left");
+  if (landmark.id > interfaces::kMaxLandmarkId) throw std::invalid_argument("the library has no ids left");
   check_pose(landmark.map_from_base, landmark.id);
   if (!fits(landmark.description, limits_)) {
     throw std::invalid_argument("landmark " + std::to_string(landmark.id) +

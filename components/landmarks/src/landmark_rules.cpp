@@ -50,7 +50,7 @@ void check_keypoints(Check& check, const std::vector<Keypoint>& keypoints) {
 
 std::optional<std::string> problem_of(const PanoramicLandmark& landmark, const DescriptionSettings& settings) {
   Check check;
-  check.require(landmark.id <= kMaxLandmarkId, "id", "is above 4000000000");
+  check.require(landmark.id <= interfaces::kMaxLandmarkId, "id", "is above 4000000000");
   check_landmark_pose(check, landmark.map_from_base, landmark.covariance);
   check_isometry(check, "panorama_pose", landmark.base_from_panorama);
   const auto size = interfaces::description_size(to_text(settings));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "postgres_rows.hpp"
+#include "panvo/interfaces/place_rules.hpp"
 
 namespace panvo::landmarks {
 namespace {
@@ -28,9 +29,8 @@ const char* const kSelectWholeLandmarks =
     "LEFT JOIN panvo.keypoints AS k ON k.landmark_id = id LEFT JOIN panvo.thumbnail AS t ON t.landmark_id = id "
     "WHERE id > $1 ORDER BY id LIMIT $2";
 
-const std::string kSelectLastId =
-    "SELECT greatest(last_id, (SELECT max(id) FROM panvo.landmark WHERE id <= " + std::to_string(kMaxLandmarkId) +
-    ")) FROM panvo.store";
+const std::string kSelectLastId = "SELECT greatest(last_id, (SELECT max(id) FROM panvo.landmark WHERE id <= " +
+                                  std::to_string(interfaces::kMaxLandmarkId) + ")) FROM panvo.store";
 
 StoredLandmark landmark_in(const postgres::Result& rows, int row, bool is_whole) {
   StoredLandmark landmark;

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <type_traits>
 
+#include "panvo/interfaces/place_rules.hpp"
 #include "panvo/postgres/connection.hpp"
 #include "panvo/postgres/worker.hpp"
 #include "postgres_rows.hpp"
@@ -98,7 +99,7 @@ class PostgresStore final : public StoreBackend {
   std::int64_t next_id() override {
     keep_others_out();
     const auto id = last_id() + 1;
-    if (id > kMaxLandmarkId) throw StoreError(name_ + ": the store has no ids left");
+    if (id > interfaces::kMaxLandmarkId) throw StoreError(name_ + ": the store has no ids left");
     run("UPDATE panvo.store SET last_id = $1", {id});
     return id;
   }

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "panvo/interfaces/place_rules.hpp"
 #include "panvo/sqlite/database.hpp"
 #include "store_backend.hpp"
 #include "store_schema.hpp"
@@ -72,7 +73,7 @@ class SqliteStore final : public StoreBackend {
 
   std::int64_t next_id() override {
     const auto last = last_id();
-    if (last >= kMaxLandmarkId) throw StoreError(file_.string() + ": the store has no ids left");
+    if (last >= interfaces::kMaxLandmarkId) throw StoreError(file_.string() + ": the store has no ids left");
     return last + 1;
   }
 
@@ -174,7 +175,8 @@ class SqliteStore final : public StoreBackend {
 
   std::size_t size() const override { return static_cast<std::size_t>(number("SELECT count(*) FROM landmark")); }
   std::int64_t last_id() const override {
-    return number("SELECT coalesce(max(id), 0) FROM landmark WHERE id BETWEEN 0 AND " + std::to_string(kMaxLandmarkId));
+    return number("SELECT coalesce(max(id), 0) FROM landmark WHERE id BETWEEN 0 AND " +
+                  std::to_string(interfaces::kMaxLandmarkId));
   }
 
   void for_each(Parts parts, const std::function<void(const StoredLandmark&)>& visit) const override {

@@ -53,7 +53,7 @@ class StoreBackend {
   virtual DescriptionSettings settings() const = 0;
   virtual Uses uses() const = 0;
   virtual std::size_t size() const = 0;
-  /// The highest id up to kMaxLandmarkId that is taken or that was given; 0: none.
+  /// The highest id up to interfaces::kMaxLandmarkId that is taken or that was given; 0: none.
   virtual std::int64_t last_id() const = 0;
   /// In order of ids.
   virtual void for_each(Parts parts, const std::function<void(const StoredLandmark&)>& visit) const = 0;

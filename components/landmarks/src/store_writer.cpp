@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "panvo/interfaces/place_rules.hpp"
 #include "panvo/postgres/worker.hpp"
 
 namespace panvo::landmarks {
@@ -212,8 +213,8 @@ class ServerWriter final : public StoreWriter {
   const StoreLocation location_;
   std::optional<DescriptionSettings> settings_;
   StorePatience patience_;
-  std::unique_ptr<LandmarkStore> store_;  // used by the worker only, like the ids
-  StoredIds ids_{kMaxLandmarkId, {}};     // others give ids, too
+  std::unique_ptr<LandmarkStore> store_;           // used by the worker only, like the ids
+  StoredIds ids_{interfaces::kMaxLandmarkId, {}};  // others give ids, too
   PendingChanges pending_;
   std::vector<StoreNotice> notices_;
   std::string problem_;  // of the last attempt; empty: none

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stored_landmark.hpp"
+#include "panvo/interfaces/place_rules.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -55,7 +56,7 @@ StoredLandmark to_stored(const PanoramicLandmark& landmark) {
 
 PanoramicLandmark from_stored(const StoredLandmark& stored) {
   PanoramicLandmark landmark;
-  if (stored.id < 1 || stored.id > kMaxLandmarkId) {
+  if (stored.id < 1 || stored.id > interfaces::kMaxLandmarkId) {
     throw std::range_error("its id is not in 1 to 4000000000");
   }
   landmark.id = static_cast<std::uint32_t>(stored.id);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/landmarks/landmark_library.hpp"
+#include "panvo/interfaces/place_rules.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -59,8 +60,8 @@ TEST(LandmarkLibrary, NumbersLandmarksFromOneOn) {
 
 TEST(LandmarkLibrary, EndsAtTheHighestId) {
   LandmarkLibrary library;
-  EXPECT_THROW(library.add(at(0, 0, kMaxLandmarkId + 1)), std::invalid_argument);
-  library.add(at(0, 0, kMaxLandmarkId));
+  EXPECT_THROW(library.add(at(0, 0, interfaces::kMaxLandmarkId + 1)), std::invalid_argument);
+  library.add(at(0, 0, interfaces::kMaxLandmarkId));
   EXPECT_NE(library.next_id(), 0u);
   EXPECT_THROW(library.add(at(0, 0)), std::invalid_argument);
 }

@@ -9,6 +9,7 @@
 
 #include "made_up_landmark.hpp"
 #include "panvo/interfaces/message_type.hpp"
+#include "panvo/interfaces/place_rules.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/map_replica.hpp"
 
@@ -104,21 +105,21 @@ TEST(LandmarkMessages, ThatAreMalformedAreRefusedWithAReason) {
 
 TEST(LandmarkMessages, HaveNoIdThatTheNextCouldNotBeCountedFrom) {
   auto message = message_of(1);
-  message.id(kMaxLandmarkId);
+  message.id(interfaces::kMaxLandmarkId);
   auto highest = to_landmark(message, made_up_settings());
   ASSERT_TRUE(highest) << highest.reason();
   MapReplica map;
   auto landmark = *highest;
   map.add(landmark);
-  EXPECT_EQ(map.next_id(), kMaxLandmarkId + 1);
+  EXPECT_EQ(map.next_id(), interfaces::kMaxLandmarkId + 1);
 
-  message.id(kMaxLandmarkId + 1);
+  message.id(interfaces::kMaxLandmarkId + 1);
   EXPECT_THAT(to_landmark(message, made_up_settings()).reason(), HasSubstr("id is above 4000000000"));
   panvo_msgs::msg::LandmarkPoses poses;
-  poses.ids({1, kMaxLandmarkId + 1});
+  poses.ids({1, interfaces::kMaxLandmarkId + 1});
   poses.poses().resize(2);
   EXPECT_THAT(to_landmark_poses(poses).reason(), HasSubstr("ids contain one above 4000000000"));
-  poses.ids({1, kMaxLandmarkId});
+  poses.ids({1, interfaces::kMaxLandmarkId});
   EXPECT_TRUE(to_landmark_poses(poses));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/interfaces/place_rules.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -116,7 +117,7 @@ TEST_F(Store, RefusesATakenIdAndValuesThatAreNone) {
   broken.covariance(3, 3) = std::numeric_limits<double>::infinity();
   EXPECT_THROW(store.add(broken), std::invalid_argument);
   broken = made_up_landmark(2);
-  broken.id = kMaxLandmarkId + 1;
+  broken.id = interfaces::kMaxLandmarkId + 1;
   EXPECT_THROW(store.add(broken), std::invalid_argument);
   EXPECT_EQ(store.size(), 1u);
 }

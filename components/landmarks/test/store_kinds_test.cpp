@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What holds for a store in a file and for one on a server.
+#include "panvo/interfaces/place_rules.hpp"
 #include "store_fixture.hpp"
 
 namespace panvo::landmarks {
@@ -241,7 +242,7 @@ TEST_P(StoreOfEachKind, TakesAnotherStoresLandmarksWithNewIds) {
 
 /// A store with gaps in its ids, uses, and values that are hard to keep.
 void fill(LandmarkStore& store) {
-  for (const std::uint32_t id : {2U, 3U, 90U, kMaxLandmarkId}) {
+  for (const std::uint32_t id : {2U, 3U, 90U, interfaces::kMaxLandmarkId}) {
     auto landmark = made_up_landmark(id, id == 3 ? 0 : 300);
     landmark.map_from_base.translation().y() = id == 2 ? 1e-300 : 0.1;
     landmark.stamp_ns = id == 2 ? std::numeric_limits<std::int64_t>::max() : 0;
@@ -268,7 +269,7 @@ TEST_P(StoreOfEachKind, IsCopiedExactlyToEachKindAndBack) {
     for (const auto* store : {&copy, &again}) {
       EXPECT_EQ(store->uses(), original.uses());
       EXPECT_EQ(store->size(), 4U);
-      for (const std::uint32_t id : {2U, 3U, 90U, kMaxLandmarkId}) {
+      for (const std::uint32_t id : {2U, 3U, 90U, interfaces::kMaxLandmarkId}) {
         const auto expected = whole(original, id), found = whole(*store, id);
         EXPECT_EQ(difference(found, expected), "");
         EXPECT_EQ(found.map_from_base.matrix(), expected.map_from_base.matrix()) << "bit for bit";

@@ -13,6 +13,10 @@
 /// Rules for the description of a place, in a message or in a store.
 namespace panvo::interfaces {
 
+/// The highest id of a landmark. Higher ones, from a damaged record or a hostile sender, are refused, because those after
+/// it are counted from it on: past 32 bits, they would begin at 0 again.
+inline constexpr std::uint32_t kMaxLandmarkId = 4'000'000'000;
+
 inline constexpr std::size_t kMaxPatches = 10'000;  ///< rows of a measurement matrix
 inline constexpr std::size_t kMaxKeypoints = 20'000;
 inline constexpr std::size_t kMaxThumbnail = 4 << 20;  ///< bytes

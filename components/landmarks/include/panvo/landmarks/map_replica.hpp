@@ -29,7 +29,7 @@ class MapReplica {
   const std::map<std::uint32_t, Place>& places() const noexcept { return places_; }
   /// Throws std::out_of_range for an unknown id.
   const LandmarkPose& pose(std::uint32_t id) const { return places_.at(id).pose; }
-  /// The largest id of all places plus 1, whichever node or journey they come from; never 0 (see kMaxLandmarkId).
+  /// The largest id of all places plus 1, whichever node or journey they come from; never 0, as ids have a limit.
   std::uint32_t next_id() const { return places_.empty() ? 1 : places_.rbegin()->first + 1; }
 
  private:

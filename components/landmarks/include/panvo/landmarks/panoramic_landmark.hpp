@@ -51,13 +51,9 @@ struct DescriptionLimits {
 /// Whether all rows exist in the matrix and the histogram has the right length. Comparisons do not check this again.
 bool fits(const PanoramaDescription& description, const DescriptionLimits& limits);
 
-/// The highest id of a landmark. Higher ones, from a damaged record or a hostile sender, are refused, because those after
-/// it are counted from it on: past 32 bits, they would begin at 0 again. The message rules have the same limit.
-inline constexpr std::uint32_t kMaxLandmarkId = 4'000'000'000;
-
 /// A place that can be recognised at any heading: its pose and its appearance.
 struct PanoramicLandmark {
-  std::uint32_t id = 0;  ///< 1, 2, ... within a library; 0: not yet assigned
+  std::uint32_t id = 0;  ///< 1, 2, ... within a library, up to interfaces::kMaxLandmarkId; 0: not yet assigned
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
   /// Of map_from_base; order and axes as in ROS PoseWithCovariance: x y z [m], rotations about the map's x y z [rad].
