@@ -55,7 +55,8 @@ std::string drive_page(const JourneyReport& report, const fs::path& page_folder)
   drive["title"] = report.title;
   drive["report"] = journey_page(report);
   drive["pictures"] = drive_pictures(report.run.frames);
-  std::string data = drive.dump();
+  std::string data =
+      drive.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // names may be in Latin-1
   replace_all(data, "<", "\\u003c");
 
   std::string page = read_text(page_folder / "index.html");

@@ -19,7 +19,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostStamps = 20'000;  // of poses: more than a screen shows
+constexpr std::size_t kMostRows = 20'000;  // of poses of one path: more than a screen shows
+
+/// Of a long drive every second, third ... entry, and those at which `state_of` an entry changes: what lasts for a moment
+/// is shown, too.
+template <class Entry, class StateOf>
+std::vector<const Entry*> thinned(const std::vector<Entry>& entries, StateOf state_of) {
+  const std::size_t step = (entries.size() + kMostRows - 1) / kMostRows;
+  std::vector<const Entry*> kept;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i % step == 0 || state_of(entries[i]) != state_of(entries[i - 1])) kept.push_back(&entries[i]);
+  }
+  return kept;
+}
+
+std::vector<const StampedPose*> thinned(const std::vector<StampedPose>& poses) {
+  return thinned(poses, [](const StampedPose&) { return 0; });
+}
 
 /// Of variances, 1e-4 would be that of a centimetre.
 double fine(double value) { return std::round(value * 1e9) * 1e-9; }
@@ -35,21 +51,24 @@ Json number_or_null(const std::optional<double>& value) { return value ? Json(ro
 
 class Rows {
  public:
-  explicit Rows(const JourneyFrames& frames) : frames_(frames), clock_(frames.run), shown_(stamps(frames.run)) {}
+  explicit Rows(const JourneyFrames& frames) : frames_(frames), clock_(frames.run) {}
 
   Json all() const {
     const auto& run = frames_.run;
     Json drive;
     drive["enhanced"] = enhanced();
-    drive["binocular"] = path(run.binocular, Eigen::Isometry3d::Identity());
-    drive["truth"] = path(frames_.recording.truth, frames_.world_from_map.inverse());
+    drive["binocular"] =
+        rows(thinned(run.binocular.poses), [](const StampedPose& pose) { return pose_row(pose.world_from_base); });
+    drive["truth"] = truth();
     drive["places"] = places();
     const Eigen::Vector3d middle = frames_.recording.base_from_panorama.linear().col(2);  // the z axis points there
     drive["panoramaYaw"] = rounded(std::atan2(middle.y(), middle.x()));
-    drive["quality"] = rows(run.qualities, [](const RunQuality& one) {
+    const auto qualities = thinned(run.qualities, [](const RunQuality& one) { return one.reliable; });
+    drive["quality"] = rows(qualities, [](const RunQuality& one) {
       return Json{one.reliable, one.tracked, one.inliers};
     });
-    drive["integrity"] = rows(run.integrity, [](const RunIntegrity& one) {
+    const auto integrity = thinned(run.integrity, [](const RunIntegrity& one) { return one.usable; });
+    drive["integrity"] = rows(integrity, [](const RunIntegrity& one) {
       return Json{one.usable, one.reason, one.risk ? Json(*one.risk) : Json(), number_or_null(one.protection_level_m),
                   number_or_null(one.alert_limit_m)};
     });
@@ -61,46 +80,23 @@ class Rows {
   }
 
  private:
-  /// Stamps of the poses that are shown; every second, third ... one of a long drive.
-  static std::vector<std::int64_t> stamps(const JourneyRun& run) {
-    std::vector<std::int64_t> all;
-    for (const auto* path : {&run.enhanced, &run.binocular}) {
-      for (const auto& pose : path->poses) all.push_back(pose.stamp_ns);
-    }
-    std::ranges::sort(all);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    const std::size_t step = all.size() / kMostStamps + 1;
-    std::vector<std::int64_t> shown;
-    for (std::size_t i = 0; i < all.size(); i += step) shown.push_back(all[i]);
-    return shown;
-  }
-
-  bool is_shown(std::int64_t stamp_ns) const { return std::ranges::binary_search(shown_, stamp_ns); }
-
   double time(std::int64_t stamp_ns) const { return rounded(clock_.seconds(stamp_ns)); }
 
-  /// A row for each entry with a stamp that is shown: its time, then `values_of` it.
+  /// A row for each entry: its time, then `values_of` it.
   template <class Entry, class Values>
-  Json rows(const std::vector<Entry>& entries, Values values_of) const {
+  Json rows(const std::vector<const Entry*>& entries, Values values_of) const {
     Json rows = Json::array();
-    for (const auto& entry : entries) {
-      if (!is_shown(entry.stamp_ns)) continue;
-      Json row = {time(entry.stamp_ns)};
-      for (auto& value : values_of(entry)) row.push_back(value);
+    for (const auto* entry : entries) {
+      Json row = {time(entry->stamp_ns)};
+      for (auto& value : values_of(*entry)) row.push_back(value);
       rows.push_back(std::move(row));
     }
     return rows;
   }
 
-  Json path(const Trajectory& trajectory, const Eigen::Isometry3d& shown_from_world) const {
-    return rows(trajectory.poses,
-                [&](const StampedPose& pose) { return pose_row(shown_from_world * pose.world_from_base); });
-  }
-
   Json enhanced() const {
-    const auto& poses = frames_.run.enhanced.poses;
     const auto& covariances = frames_.run.enhanced_covariances;
-    return rows(poses, [&](const StampedPose& pose) {
+    return rows(thinned(frames_.run.enhanced.poses), [&](const StampedPose& pose) {
       Json row = pose_row(pose.world_from_base);
       Matrix6d covariance = Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());  // null: unknown
       if (covariances) {
@@ -111,6 +107,17 @@ class Rows {
       row.push_back(rounded(speed_m_s(pose.stamp_ns)));
       return row;
     });
+  }
+
+  /// At the stamps of the enhanced poses that are shown, which the page compares with it; it may have others of its own.
+  Json truth() const {
+    const Eigen::Isometry3d map_from_world = frames_.world_from_map.inverse();
+    std::vector<StampedPose> poses;
+    for (const auto* shown : thinned(frames_.run.enhanced.poses)) {
+      const auto pose = pose_at(frames_.recording.truth.poses, shown->stamp_ns);
+      if (pose) poses.push_back({shown->stamp_ns, map_from_world * *pose});
+    }
+    return rows(thinned(poses), [](const StampedPose& pose) { return pose_row(pose.world_from_base); });
   }
 
   /// Of the odometry, which does not jump; 0 before its first step.
@@ -174,7 +181,6 @@ class Rows {
 
   const JourneyFrames& frames_;
   DriveClock clock_;
-  std::vector<std::int64_t> shown_;
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ std::string facts_section(const JourneyReport& report) {
   std::string list;
   add(list, "run", run.name);
   if (run.facts) add_facts(list, *run.facts);
-  add(list, "recording", recording.folder.filename().string());
+  add(list, "recording", std::filesystem::weakly_canonical(recording.folder).filename().string());
   add(list, "route, seed", recording.route + (recording.seed.empty() ? "" : ", " + recording.seed));
   add(list, "effects", joined(recording.effects));
   add(list, "landmarks", std::to_string(run.landmarks.size()) + " lines of landmarks.csv");

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
@@ -84,6 +85,55 @@ TEST_F(DrivePage, HasThePosesInTheMapWithTheirTimes) {
   EXPECT_THAT(row("enhanced", 95),
               testing::Pointwise(testing::DoubleNear(2e-4),
                                  {95.0, 5.0, 0.25, std::numbers::pi, 1.0, 0.0, 0.0625, std::hypot(1.0, kDrift)}));
+}
+
+TEST_F(DrivePage, HasTheTruthAtTheTimesOfThePosesThoughItsOwnAreOthers) {
+  auto recording = read_journey_recording(folder_ / "recording");
+  const auto frames = evaluate_run(read_journey_run(folder_ / "run"), recording, nullptr).frames;
+  std::vector<StampedPose> between;
+  for (int second = 0; second < kSeconds; ++second) {
+    const auto stamp_ns = stamp(second) + 500'000'000;
+    between.push_back({stamp_ns, pose_at(recording.truth.poses, stamp_ns).value()});
+  }
+  recording.truth.poses = between;
+  const auto drive = drive_rows(frames);
+  ASSERT_EQ(drive["truth"].size(), kSeconds - 1U) << "those between two of the truth";
+  EXPECT_THAT(drive["truth"][19].get<std::vector<double>>(),
+              testing::Pointwise(testing::DoubleNear(2e-4), {20.0, 20.0, 0.0, 0.0}));
+}
+
+TEST(DriveRows, HaveBothPathsOfALongDriveAndWhatLastsForOnePose) {
+  constexpr std::size_t kPoses = 30'000, kLost = 12'345;
+  const JourneyRecording recording;
+  JourneyFrames frames{.run = {}, .recording = recording};
+  for (std::size_t i = 0; i < kPoses; ++i) {
+    const auto stamp_ns = 100'000'000 * static_cast<std::int64_t>(i);
+    frames.run.enhanced.poses.push_back({stamp_ns, Eigen::Isometry3d::Identity()});
+    frames.run.binocular.poses.push_back({stamp_ns + 50'000'000, Eigen::Isometry3d::Identity()});
+    RunQuality quality;
+    quality.stamp_ns = stamp_ns + 50'000'000;
+    quality.reliable = i != kLost;
+    frames.run.qualities.push_back(quality);
+    RunIntegrity integrity;
+    integrity.stamp_ns = stamp_ns;
+    integrity.usable = i != kLost;
+    frames.run.integrity.push_back(integrity);
+  }
+  const auto drive = drive_rows(frames);
+  EXPECT_EQ(drive["enhanced"].size(), kPoses / 2);
+  EXPECT_EQ(drive["binocular"].size(), kPoses / 2);
+  for (const char* judged : {"quality", "integrity"}) {
+    const auto bad = std::ranges::count_if(drive[judged], [](const Json& row) { return row[1] == false; });
+    EXPECT_EQ(bad, 1) << judged;
+    EXPECT_EQ(drive[judged].size(), kPoses / 2 + 1) << judged << ": the one, and every second";
+  }
+}
+
+TEST_F(DrivePage, ReplacesWhatIsNotUtf8) {
+  EXPECT_EQ(drive_in(page("stra\xdf"
+                          "e"))["title"],
+            "stra\xef\xbf\xbd"
+            "e");
 }
 
 TEST_F(DrivePage, HasPlacesSightingsStatesAndTurns) {
