@@ -13,12 +13,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<StereoFrame>& drive() {
+const std::vector<StereoFrame>& seven_frames() {
   static const std::vector<StereoFrame> frames = SyntheticScene::drive(16);
   return frames;
 }
 
-Eigen::Isometry3d truth(int frame) { return SyntheticScene::world_from_left(frame); }
+Eigen::Isometry3d scene_truth(int frame) { return SyntheticScene::world_from_left(frame); }
 
 // One bad frame among good ones: marked unreliable with the reason, predicted with the last motion, recovered by the
 // next frame.
@@ -27,7 +27,7 @@ class BadFrame : public ::testing::Test {
   void expect_fault(StereoFrame bad, const std::string& reason) {
     BinocularOdometry odometry(SyntheticScene::stereo(), {});
     OdometryEstimate before;
-    for (int i = 0; i < 6; ++i) before = odometry.step(drive()[static_cast<size_t>(i)]);
+    for (int i = 0; i < 6; ++i) before = odometry.step(seven_frames()[static_cast<size_t>(i)]);
     const OdometryEstimate during = odometry.step(bad);
     EXPECT_FALSE(during.quality.reliable);
     EXPECT_THAT(during.quality.reason, HasSubstr(reason));
@@ -35,16 +35,16 @@ class BadFrame : public ::testing::Test {
     EXPECT_TRUE(during.odom_from_left_covariance.allFinite());
     EXPECT_GT(during.odom_from_left_covariance.trace(), before.odom_from_left_covariance.trace());
     EXPECT_FALSE(during.previous_from_current.isApprox(Eigen::Isometry3d::Identity(), 1e-3));
-    EXPECT_LT((during.odom_from_left.translation() - truth(6).translation()).norm(), 0.05);
+    EXPECT_LT((during.odom_from_left.translation() - scene_truth(6).translation()).norm(), 0.05);
     OdometryEstimate after;
     for (int i = 7; i < 10; ++i) {
-      after = odometry.step(drive()[static_cast<size_t>(i)]);
+      after = odometry.step(seven_frames()[static_cast<size_t>(i)]);
       EXPECT_TRUE(after.quality.reliable) << i << ": " << after.quality.reason;
     }
-    EXPECT_LT((after.odom_from_left.translation() - truth(9).translation()).norm(), 0.012);
+    EXPECT_LT((after.odom_from_left.translation() - scene_truth(9).translation()).norm(), 0.012);
   }
 
-  StereoFrame frame_ = drive()[6];
+  StereoFrame frame_ = seven_frames()[6];
 };
 
 TEST_F(BadFrame, Empty) {
@@ -78,18 +78,18 @@ TEST_F(BadFrame, LeftAndRightExchanged) {
 }
 
 TEST_F(BadFrame, LeftCameraHangs) {
-  frame_.left = drive()[5].left;
+  frame_.left = seven_frames()[5].left;
   expect_fault(frame_, "left camera repeats its image (frozen)");
 }
 
 TEST_F(BadFrame, RightCameraHangs) {
-  frame_.right = drive()[5].right;
+  frame_.right = seven_frames()[5].right;
   expect_fault(frame_, "right camera repeats its image (frozen)");
 }
 
 TEST_F(BadFrame, BothCamerasHang) {
-  frame_.left = drive()[5].left;
-  frame_.right = drive()[5].right;
+  frame_.left = seven_frames()[5].left;
+  frame_.right = seven_frames()[5].right;
   expect_fault(frame_, "both cameras repeat their images (frozen)");
 }
 
@@ -100,7 +100,7 @@ TEST_F(BadFrame, BothEyesAreOne) {
 
 /// Stalled decoder whose images differ slightly.
 TEST_F(BadFrame, RightEyeIsOfAnotherMoment) {
-  frame_.right = drive()[0].right;
+  frame_.right = seven_frames()[0].right;
   expect_fault(frame_, "left and right images do not match");
 }
 
@@ -108,7 +108,7 @@ TEST_F(BadFrame, RightEyeIsOfAnotherMoment) {
 class LateFrames : public ::testing::Test {
  protected:
   static StereoFrame frame(int index) {
-    StereoFrame frame = drive()[static_cast<size_t>(index)];
+    StereoFrame frame = seven_frames()[static_cast<size_t>(index)];
     frame.stamp_ns = 1'000'000'000 + index * 24'000'000;  // 0.12 m each
     return frame;
   }
@@ -117,11 +117,11 @@ class LateFrames : public ::testing::Test {
     for (; next_ <= last; ++next_) {
       estimate_ = odometry_.step(frame(next_));
       ASSERT_TRUE(estimate_.quality.reliable) << next_ << ": " << estimate_.quality.reason;
-      const Eigen::Isometry3d step = truth(std::max(0, next_ - 1)).inverse() * truth(next_);
+      const Eigen::Isometry3d step = scene_truth(std::max(0, next_ - 1)).inverse() * scene_truth(next_);
       EXPECT_LE((estimate_.previous_from_current.translation() - step.translation()).norm(),
                 0.05 * step.translation().norm())
           << next_;
-      EXPECT_LT((estimate_.odom_from_left.translation() - truth(next_).translation()).norm(), 0.012) << next_;
+      EXPECT_LT((estimate_.odom_from_left.translation() - scene_truth(next_).translation()).norm(), 0.012) << next_;
       EXPECT_LT(estimate_.previous_from_current_covariance.diagonal().head<3>().maxCoeff(), 0.01 * 0.01) << next_;
     }
   }
@@ -176,14 +176,14 @@ TEST_F(LateFrames, BlackOnesAfterASetClockAreNoLateFrames) {
 TEST(BinocularOdometry, LearnsNothingFromABadFrame) {
   const auto learned_with = [](const StereoFrame& sixth) {
     TrackingStage tracking(SyntheticScene::stereo(), {});
-    for (int i = 0; i < 6; ++i) tracking.track(drive()[static_cast<size_t>(i)]);
+    for (int i = 0; i < 6; ++i) tracking.track(seven_frames()[static_cast<size_t>(i)]);
     EXPECT_FALSE(tracking.track(sixth).fault.empty());
-    return tracking.track(drive()[7]);
+    return tracking.track(seven_frames()[7]);
   };
-  StereoFrame black = drive()[6], exchanged = black, apart = black;
+  StereoFrame black = seven_frames()[6], exchanged = black, apart = black;
   black.left = cv::Mat(black.left.size(), CV_8UC1, cv::Scalar(0));
   std::swap(exchanged.left, exchanged.right);
-  apart.right = drive()[0].right;
+  apart.right = seven_frames()[0].right;
   const TrackedFrame expected = learned_with(black);
   for (const auto& bad : {exchanged, apart}) {
     const TrackedFrame after = learned_with(bad);
@@ -200,19 +200,19 @@ TEST(BinocularOdometry, ForgetsTheStampOfABadFrame) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   const auto tracked_after = [](StereoFrame bad) {
     TrackingStage tracking(SyntheticScene::stereo(), {});
-    for (int i = 0; i < 6; ++i) tracking.track(drive()[static_cast<size_t>(i)]);
+    for (int i = 0; i < 6; ++i) tracking.track(seven_frames()[static_cast<size_t>(i)]);
     bad.stamp_ns += 60 * kSecond_ns;
     EXPECT_FALSE(tracking.track(bad).fault.empty());
     std::vector<TrackedFrame> after;
     for (size_t i = 6; i < 10; ++i) {
-      StereoFrame earlier = drive()[i];
+      StereoFrame earlier = seven_frames()[i];
       earlier.stamp_ns -= kSecond_ns;
       after.push_back(tracking.track(earlier));
     }
     EXPECT_FALSE(after.front().fault.empty()) << "the first frame after the jump is lost";
     return after;
   };
-  StereoFrame black = drive()[6], exchanged = black;
+  StereoFrame black = seven_frames()[6], exchanged = black;
   black.left = cv::Mat(black.left.size(), CV_8UC1, cv::Scalar(0));
   std::swap(exchanged.left, exchanged.right);
   const auto expected = tracked_after(black), found = tracked_after(exchanged);
@@ -237,9 +237,9 @@ struct Attempts : vision::StageObserver {
 TEST(BinocularOdometry, ExpectsNoTurnThatItOnlyGuessed) {
   Attempts attempts;
   TrackingStage tracking(SyntheticScene::stereo(), {}, &attempts);
-  for (int i = 0; i < 6; ++i) tracking.track(drive()[static_cast<size_t>(i)]);
+  for (int i = 0; i < 6; ++i) tracking.track(seven_frames()[static_cast<size_t>(i)]);
   const auto elsewhere = [](int i) {
-    return SyntheticScene::frame(i, Eigen::Isometry3d(vision::so3_exp({0.0, 1.4, 0.0})) * truth(i - 6));
+    return SyntheticScene::frame(i, Eigen::Isometry3d(vision::so3_exp({0.0, 1.4, 0.0})) * scene_truth(i - 6));
   };
   attempts.count = 0;
   tracking.track(elsewhere(6));
@@ -252,8 +252,8 @@ TEST(BinocularOdometry, ExpectsNoTurnThatItOnlyGuessed) {
 TEST(BinocularOdometry, SparesTheSlowMatchingWhileTheCamerasAreOutOfOrder) {
   Attempts descriptors("match_descriptors");
   TrackingStage tracking(SyntheticScene::stereo(), {}, &descriptors);
-  for (int i = 0; i < 6; ++i) tracking.track(drive()[static_cast<size_t>(i)]);
-  const std::int64_t step_ns = 40'000'000, begin_ns = drive()[5].stamp_ns;
+  for (int i = 0; i < 6; ++i) tracking.track(seven_frames()[static_cast<size_t>(i)]);
+  const std::int64_t step_ns = 40'000'000, begin_ns = seven_frames()[5].stamp_ns;
   StereoFrame frame = SyntheticScene::frame(6, Eigen::Isometry3d(vision::so3_exp({0.0, 1.4, 0.0})));
   std::swap(frame.left, frame.right);
   for (int i = 1; i <= 50; ++i) {  // 2 s
@@ -268,7 +268,7 @@ TEST(BinocularOdometry, SparesTheSlowMatchingWhileTheCamerasAreOutOfOrder) {
 TEST(BinocularOdometry, SaysFromTheFirstFrameOnThatTheCamerasAreExchanged) {
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
   for (int i = 0; i < 3; ++i) {
-    StereoFrame frame = drive()[static_cast<size_t>(i)];
+    StereoFrame frame = seven_frames()[static_cast<size_t>(i)];
     std::swap(frame.left, frame.right);
     const OdometryEstimate estimate = odometry.step(frame);
     EXPECT_FALSE(estimate.quality.reliable);

@@ -15,7 +15,7 @@ namespace {
 
 using vision::Vector6d;
 
-const vision::RectifiedStereo kStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.3};
+const vision::RectifiedStereo kSolverStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.3};
 constexpr double kSigma_px = 0.3;
 
 // A camera that moves past a cloud of points, with its observations.
@@ -36,7 +36,7 @@ class Drive {
       truth.points.push_back({Eigen::Isometry3d::Identity(), {uniform(-0.6, 0.6), uniform(-0.4, 0.4), 1.0 / z}});
       for (int i = 0; i < frames; ++i) {
         const auto seen =
-            predict(kStereo, truth.left_from_world[static_cast<size_t>(i)], truth.points.back().inverse_depth);
+            predict(kSolverStereo, truth.left_from_world[static_cast<size_t>(i)], truth.points.back().inverse_depth);
         if (!seen) continue;
         truth.observations.push_back(
             {i, p, *seen + Eigen::Vector3d(0.0, 0.0, disparity_offset_px), Eigen::Vector3d::Constant(1.0 / kSigma_px)});
@@ -82,7 +82,7 @@ BundleOptions thorough() {
 TEST(BundleSolver, FindsTheTruthOfPerfectMeasurements) {
   const Drive drive(4, 60);
   BundleProblem problem = drive.disturbed(1, false);
-  const BundleSummary summary = solve(kStereo, problem, thorough());
+  const BundleSummary summary = solve(kSolverStereo, problem, thorough());
   EXPECT_LT(summary.final_cost, 1e-8);
   EXPECT_LT(drive.pose_error(problem), 1e-6);
 }
@@ -92,7 +92,7 @@ TEST(BundleSolver, LeavesFixedFramesAlone) {
   BundleProblem problem = drive.disturbed(1);
   problem.fixed_frames = 2;
   const auto before = problem.left_from_world;
-  solve(kStereo, problem, thorough());
+  solve(kSolverStereo, problem, thorough());
   EXPECT_EQ(problem.left_from_world[0].matrix(), before[0].matrix());
   EXPECT_EQ(problem.left_from_world[1].matrix(), before[1].matrix());
 }
@@ -101,7 +101,7 @@ TEST(BundleSolver, IsNotLedAstrayByOutliers) {
   const Drive drive(4, 80);
   BundleProblem problem = drive.disturbed(2);
   for (size_t i = 0; i < problem.observations.size(); i += 7) problem.observations[i].pixel.x() += 25.0;
-  solve(kStereo, problem, thorough());
+  solve(kSolverStereo, problem, thorough());
   EXPECT_LT(drive.pose_error(problem), 0.02);
 }
 
@@ -109,7 +109,7 @@ TEST(BundleSolver, FindsADisparityOffset) {
   const Drive drive(6, 200, 0.25);
   BundleProblem problem = drive.disturbed(3);
   problem.offset_information = 1.0;
-  solve(kStereo, problem, thorough());
+  solve(kSolverStereo, problem, thorough());
   EXPECT_NEAR(problem.disparity_offset_px, 0.25, 0.03);
 }
 
@@ -123,11 +123,11 @@ struct CeresResidual {
     T h[3];
     ceres::AngleAxisRotatePoint(pose, ray, h);
     for (int k = 0; k < 3; ++k) h[k] += point[2] * pose[3 + k];
-    residual[0] =
-        (kStereo.camera.fx * h[0] / h[2] + kStereo.camera.cx - observation.pixel.x()) * observation.inverse_sigma.x();
-    residual[1] =
-        (kStereo.camera.fy * h[1] / h[2] + kStereo.camera.cy - observation.pixel.y()) * observation.inverse_sigma.y();
-    residual[2] = (kStereo.camera.fx * kStereo.baseline_m * point[2] / h[2] - observation.pixel.z()) *
+    residual[0] = (kSolverStereo.camera.fx * h[0] / h[2] + kSolverStereo.camera.cx - observation.pixel.x()) *
+                  observation.inverse_sigma.x();
+    residual[1] = (kSolverStereo.camera.fy * h[1] / h[2] + kSolverStereo.camera.cy - observation.pixel.y()) *
+                  observation.inverse_sigma.y();
+    residual[2] = (kSolverStereo.camera.fx * kSolverStereo.baseline_m * point[2] / h[2] - observation.pixel.z()) *
                   observation.inverse_sigma.z();
     return true;
   }
@@ -137,7 +137,7 @@ TEST(BundleSolver, AgreesWithCeres) {
   const Drive drive(5, 60);
   const BundleProblem start = drive.disturbed(4);
   BundleProblem ours = start;
-  const BundleSummary summary = solve(kStereo, ours, thorough());
+  const BundleSummary summary = solve(kSolverStereo, ours, thorough());
 
   std::vector<std::array<double, 6>> poses;
   for (const auto& pose : start.left_from_world) {
@@ -176,7 +176,7 @@ TEST(BundleSolver, CovarianceAgreesWithMonteCarlo) {
   double nees = 0.0, variance = 0.0;
   for (int trial = 0; trial < kTrials; ++trial) {
     BundleProblem problem = drive.disturbed(100U + static_cast<unsigned>(trial));
-    const BundleSummary summary = solve(kStereo, problem, options);
+    const BundleSummary summary = solve(kSolverStereo, problem, options);
     ASSERT_EQ(summary.covariance.rows(), 12);
     const vision::Matrix6d last = summary.covariance.bottomRightCorner<6, 6>();
     const Vector6d error = vision::se3_log(drive.truth.left_from_world[2] * problem.left_from_world[2].inverse());
@@ -194,8 +194,8 @@ TEST(BundleSolver, CovarianceIsTheSameWhenStartedAtTheMinimum) {
   options.max_iterations = 100;
   options.min_improvement = 0.0;
   BundleProblem problem = drive.disturbed(7);
-  const BundleSummary first = solve(kStereo, problem, thorough());
-  const BundleSummary again = solve(kStereo, problem, options);
+  const BundleSummary first = solve(kSolverStereo, problem, thorough());
+  const BundleSummary again = solve(kSolverStereo, problem, options);
   ASSERT_EQ(again.covariance.rows(), 12);
   EXPECT_TRUE(again.covariance.isApprox(first.covariance, 1e-3));
 }

@@ -11,8 +11,8 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-const vision::RectifiedStereo kStereo = SyntheticScene::stereo();
-const vision::StereoMatcher kMatcher(kStereo.camera, {-1.0, 60.0}, 0.8);
+const vision::RectifiedStereo kSceneStereo = SyntheticScene::stereo();
+const vision::StereoMatcher kMatcher(kSceneStereo.camera, {-1.0, 60.0}, 0.8);
 
 StereoPyramids pyramids(const StereoFrame& frame) {
   return {std::make_shared<const vision::ImagePyramid>(frame.left, 4), vision::ImagePyramid(frame.right, 2)};
@@ -27,7 +27,7 @@ Eigen::Isometry3d jumped() {
 TEST(DescriptorMotion, IsFoundWithoutAPrediction) {
   const Eigen::Isometry3d truth = jumped().inverse() * SyntheticScene::world_from_left(0);
   const auto found =
-      DescriptorMotion(kStereo, {})
+      DescriptorMotion(kSceneStereo, {})
           .find(pyramids(SyntheticScene::frame(0)), pyramids(SyntheticScene::frame(1, jumped())), kMatcher, {});
   ASSERT_TRUE(found);
   const vision::Vector6d error = vision::pose_error(found->current_from_previous, truth);
@@ -42,13 +42,14 @@ TEST(DescriptorMotion, IsNotFoundBetweenImagesOfDifferentPlaces) {
   cv::flip(mirrored.left, mirrored.left, 0);
   cv::flip(mirrored.right, mirrored.right, 0);
   EXPECT_FALSE(
-      DescriptorMotion(kStereo, {}).find(pyramids(SyntheticScene::frame(0)), pyramids(mirrored), kMatcher, {}));
+      DescriptorMotion(kSceneStereo, {}).find(pyramids(SyntheticScene::frame(0)), pyramids(mirrored), kMatcher, {}));
   const StereoFrame blank{1, cv::Mat(240, 320, CV_8UC1, cv::Scalar(90)), cv::Mat(240, 320, CV_8UC1, cv::Scalar(90))};
-  EXPECT_FALSE(DescriptorMotion(kStereo, {}).find(pyramids(SyntheticScene::frame(0)), pyramids(blank), kMatcher, {}));
+  EXPECT_FALSE(
+      DescriptorMotion(kSceneStereo, {}).find(pyramids(SyntheticScene::frame(0)), pyramids(blank), kMatcher, {}));
 }
 
 TEST(DescriptorMotion, CarriesTheOdometryOverAJump) {
-  BinocularOdometry odometry(kStereo, {});
+  BinocularOdometry odometry(kSceneStereo, {});
   odometry.step(SyntheticScene::frame(0));
   odometry.step(SyntheticScene::frame(1));
   const auto estimate = odometry.step(SyntheticScene::frame(2, jumped()));

@@ -12,7 +12,7 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-const vision::RectifiedStereo kStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.3};
+const vision::RectifiedStereo kOffsetStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.3};
 const Eigen::Isometry3d kMotion = vision::se3_exp((vision::Vector6d() << 0.01, 0.0, -0.4, 0.001, 0.02, 0.0).finished());
 
 /// Points of a street before and after `motion`, all disparities too large by `offset_px`; the first `movers` move with
@@ -24,7 +24,7 @@ std::vector<FramePair> points(std::mt19937& random, const Eigen::Isometry3d& mot
   constexpr double kNoise_px = 0.2;
   const auto see = [&](const Eigen::Vector3d& point) {
     Observation seen;
-    seen.pixel = vision::observe(kStereo, point) + Eigen::Vector3d(0.0, 0.0, offset_px);
+    seen.pixel = vision::observe(kOffsetStereo, point) + Eigen::Vector3d(0.0, 0.0, offset_px);
     for (int axis = 0; axis < 3; ++axis) seen.pixel[axis] += uniform(-kNoise_px, kNoise_px);
     seen.sigma_px = seen.sigma_disparity_px = kNoise_px / std::sqrt(3.0);
     seen.has_disparity = true;
@@ -44,7 +44,8 @@ TEST(DisparityOffset, IsFoundFromHowNearAndFarPointsMovePast) {
     std::mt19937 random(3);
     DisparityOffset offset;
     Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
-    for (int frame = 0; frame < 30; ++frame) moved = offset.learn(kStereo, points(random, kMotion, offset_px), kMotion);
+    for (int frame = 0; frame < 30; ++frame)
+      moved = offset.learn(kOffsetStereo, points(random, kMotion, offset_px), kMotion);
     EXPECT_NEAR(offset.px(), offset_px, 0.05);
     EXPECT_LT((moved.translation() - kMotion.translation()).norm(), 0.02 * kMotion.translation().norm());
     EXPECT_NEAR(offset.without({1.0, 2.0, 8.0 + offset_px}).z(), 8.0, 0.05);
@@ -54,17 +55,17 @@ TEST(DisparityOffset, IsFoundFromHowNearAndFarPointsMovePast) {
 TEST(DisparityOffset, IsNotLedAstrayByWhatMoves) {
   std::mt19937 random(3);
   DisparityOffset offset;
-  for (int frame = 0; frame < 30; ++frame) offset.learn(kStereo, points(random, kMotion, 0.6, 60), kMotion);
+  for (int frame = 0; frame < 30; ++frame) offset.learn(kOffsetStereo, points(random, kMotion, 0.6, 60), kMotion);
   EXPECT_NEAR(offset.px(), 0.6, 0.08);
 }
 
 TEST(DisparityOffset, StaysAsItIsWhileTheCameraIsAtRest) {
   std::mt19937 random(3);
   DisparityOffset offset;
-  for (int frame = 0; frame < 30; ++frame) offset.learn(kStereo, points(random, kMotion, 0.6), kMotion);
+  for (int frame = 0; frame < 30; ++frame) offset.learn(kOffsetStereo, points(random, kMotion, 0.6), kMotion);
   const double known_px = offset.px();
   const Eigen::Isometry3d rest = Eigen::Isometry3d::Identity();
-  for (int frame = 0; frame < 1000; ++frame) offset.learn(kStereo, points(random, rest, 0.6), rest);
+  for (int frame = 0; frame < 1000; ++frame) offset.learn(kOffsetStereo, points(random, rest, 0.6), rest);
   EXPECT_NEAR(offset.px(), known_px, 0.1);
 }
 
@@ -72,9 +73,10 @@ TEST(DisparityOffset, IsNotLessCertainAfterALongRestThanAtFirst) {
   std::mt19937 random(3);
   const auto seen = points(random, kMotion, 0.6);
   DisparityOffset fresh, rested;
-  for (int frame = 0; frame < 100000; ++frame) rested.learn(kStereo, {}, Eigen::Isometry3d::Identity());  // an hour
-  fresh.learn(kStereo, seen, kMotion);
-  rested.learn(kStereo, seen, kMotion);
+  for (int frame = 0; frame < 100000; ++frame)
+    rested.learn(kOffsetStereo, {}, Eigen::Isometry3d::Identity());  // an hour
+  fresh.learn(kOffsetStereo, seen, kMotion);
+  rested.learn(kOffsetStereo, seen, kMotion);
   EXPECT_NEAR(rested.px(), fresh.px(), 1e-6);
   EXPECT_GT(std::abs(fresh.px()), 0.01) << "they learn";
 }
@@ -84,9 +86,9 @@ TEST(DisparityOffset, LearnsNothingFromTooFewPoints) {
   std::mt19937 random(3);
   auto few = points(random, kMotion, 0.6);
   few.resize(1);
-  EXPECT_TRUE(offset.learn(kStereo, few, kMotion).matrix().allFinite());
+  EXPECT_TRUE(offset.learn(kOffsetStereo, few, kMotion).matrix().allFinite());
   EXPECT_NEAR(offset.px(), 0.0, 0.5);
-  EXPECT_EQ(offset.learn(kStereo, {}, kMotion).matrix(), kMotion.matrix());
+  EXPECT_EQ(offset.learn(kOffsetStereo, {}, kMotion).matrix(), kMotion.matrix());
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-const vision::RectifiedStereo kStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.3};
+const vision::RectifiedStereo kRansacStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.3};
 const Eigen::Isometry3d kMotion =
     vision::se3_exp((vision::Vector6d() << 0.05, -0.02, -0.9, 0.01, 0.08, -0.02).finished());
 
@@ -29,14 +29,15 @@ std::vector<PointPair> pairs(int count, int outliers) {
     if (i < outliers)
       moved += Eigen::Vector3d{0.6 + uniform(0.0, 1.0), uniform(-0.5, 0.5), uniform(-1.0, 1.0)} * 0.2 * z;
     const auto error = [&] { return Eigen::Vector3d{uniform(-0.2, 0.2), uniform(-0.2, 0.2), uniform(-0.2, 0.2)}; };
-    pairs.push_back({vision::observe(kStereo, point) + error(), vision::observe(kStereo, moved) + error(), true});
+    pairs.push_back(
+        {vision::observe(kRansacStereo, point) + error(), vision::observe(kRansacStereo, moved) + error(), true});
   }
   return pairs;
 }
 
 TEST(MotionRansac, FindsTheMotionAmongOutliers) {
   const auto points = pairs(150, 75);
-  const auto found = estimate_motion(kStereo, points, {}, {});
+  const auto found = estimate_motion(kRansacStereo, points, {}, {});
   ASSERT_TRUE(found);
   EXPECT_LT(vision::se3_log(found->current_from_previous * kMotion.inverse()).norm(), 0.01);
   EXPECT_NEAR(found->inliers, 75, 5);
@@ -46,7 +47,8 @@ TEST(MotionRansac, FindsTheMotionAmongOutliers) {
 
 TEST(MotionRansac, GivesTheSameTwice) {
   const auto points = pairs(80, 30);
-  const auto first = estimate_motion(kStereo, points, {}, {}), second = estimate_motion(kStereo, points, {}, {});
+  const auto first = estimate_motion(kRansacStereo, points, {}, {}),
+             second = estimate_motion(kRansacStereo, points, {}, {});
   EXPECT_EQ(first->current_from_previous.matrix(), second->current_from_previous.matrix());
   EXPECT_EQ(first->is_inlier, second->is_inlier);
 }
@@ -54,7 +56,7 @@ TEST(MotionRansac, GivesTheSameTwice) {
 TEST(MotionRansac, TakesAGoodGuessWithoutDrawing) {
   const auto points = pairs(60, 10);
   const std::array guesses{kMotion};
-  const auto found = estimate_motion(kStereo, points, guesses, {.ransac_iterations = 0});
+  const auto found = estimate_motion(kRansacStereo, points, guesses, {.ransac_iterations = 0});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->inliers, 50);
 }
@@ -64,15 +66,15 @@ TEST(MotionRansac, BelievesWhatStandsStillMoreThanAMajority) {
   const Eigen::Isometry3d other =
       vision::se3_exp((vision::Vector6d() << 0.4, 0.0, 0.1, 0.0, 0.0, 0.0).finished()) * kMotion;
   for (std::size_t i = 0; i < 70; ++i) {
-    points[i].current = vision::observe(kStereo, other * *vision::triangulate(kStereo, points[i].previous));
+    points[i].current = vision::observe(kRansacStereo, other * *vision::triangulate(kRansacStereo, points[i].previous));
     points[i].vote = 0.1;
   }
-  const auto found = estimate_motion(kStereo, points, {}, {});
+  const auto found = estimate_motion(kRansacStereo, points, {}, {});
   ASSERT_TRUE(found);
   EXPECT_LT(vision::se3_log(found->current_from_previous * kMotion.inverse()).norm(), 0.05);  // the other is 0.4 away
 }
 
-TEST(MotionRansac, HasNoMotionForNoPoints) { EXPECT_FALSE(estimate_motion(kStereo, {}, {}, {})); }
+TEST(MotionRansac, HasNoMotionForNoPoints) { EXPECT_FALSE(estimate_motion(kRansacStereo, {}, {}, {})); }
 
 }  // namespace
 }  // namespace panvo::binocular_odometry

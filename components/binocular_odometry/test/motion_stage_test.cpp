@@ -17,7 +17,7 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-const vision::RectifiedStereo kStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.12};
+const vision::RectifiedStereo kStageStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.12};
 constexpr std::int64_t kInterval_ns = 40'000'000;
 
 /// A drive behind a car at constant distance: few near points on road and houses, more far away, and most on the car.
@@ -38,7 +38,7 @@ class DriveBehindACar {
     tracked.stamp_ns = 1'000'000'000 + index * kInterval_ns;
     const auto see = [&](std::int64_t id, const Eigen::Vector3d& in_left) {
       if (in_left.z() < 2.0) return false;
-      const Eigen::Vector3d pixel = vision::observe(kStereo, in_left);
+      const Eigen::Vector3d pixel = vision::observe(kStageStereo, in_left);
       if (pixel.x() < 5.0 || pixel.x() > 635.0 || pixel.y() < 5.0 || pixel.y() > 475.0) return false;
       Observation seen;
       seen.track_id = id;
@@ -122,7 +122,7 @@ class BlindDrive {
 
   /// The estimates of all frames that are passed to the stage.
   std::vector<OdometryEstimate> run(Loss loss) {
-    MotionStage stage(kStereo, {}, nullptr);
+    MotionStage stage(kStageStereo, {}, nullptr);
     std::vector<OdometryEstimate> estimates;
     for (int i = 0; i < 2 * kSeen + kBlind; ++i) {
       const bool is_blind = i >= kSeen && i < kSeen + kBlind;
@@ -163,7 +163,7 @@ class BlindDrive {
     for (const auto& [id, in_world] : points_) {
       Observation observation;
       observation.track_id = id;
-      observation.pixel = vision::observe(kStereo, pose.inverse() * in_world) +
+      observation.pixel = vision::observe(kStageStereo, pose.inverse() * in_world) +
                           0.2 * Eigen::Vector3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
       observation.sigma_px = observation.sigma_disparity_px = 0.12;
       observation.has_disparity = true;
@@ -241,7 +241,7 @@ TEST(MotionStage, ItsErrorLiesWithinItsCovarianceAfterFourSecondsThatShowNothing
 
 TEST(MotionStage, IsNotTakenAlongByACarThatMostOfThePointsAreOn) {
   DriveBehindACar drive;
-  MotionStage stage(kStereo, {}, nullptr);
+  MotionStage stage(kStageStereo, {}, nullptr);
   for (int i = 0; i < DriveBehindACar::kFrames; ++i) {
     const auto estimate = stage.estimate(drive.frame(i));
     ASSERT_TRUE(i == 0 || estimate.quality.reliable) << i << ": " << estimate.quality.reason;
@@ -252,7 +252,7 @@ TEST(MotionStage, IsNotTakenAlongByACarThatMostOfThePointsAreOn) {
 
 TEST(MotionStage, KnowsThePointsOfTheStaticSceneAndWhereTheyAre) {
   DriveBehindACar drive;
-  MotionStage stage(kStereo, {}, nullptr);
+  MotionStage stage(kStageStereo, {}, nullptr);
   EXPECT_TRUE(stage.points().empty());
   int inliers = 0;
   for (int i = 0; i < DriveBehindACar::kFrames; ++i) {
@@ -273,7 +273,8 @@ TEST(MotionStage, KnowsThePointsOfTheStaticSceneAndWhereTheyAre) {
       ASSERT_TRUE(points[at].in_odom);
       const Eigen::Isometry3d left_from_world = DriveBehindACar::world_from_left(i).inverse();
       const double depth_m = (left_from_world * *truth).z();
-      const double sigma_m = 0.1 * depth_m * depth_m / (kStereo.camera.fx * kStereo.baseline_m);  // 0.1 px of disparity
+      const double sigma_m =
+          0.1 * depth_m * depth_m / (kStageStereo.camera.fx * kStageStereo.baseline_m);  // 0.1 px of disparity
       const Eigen::Vector3d error = left_from_world * *truth - estimate.odom_from_left.inverse() * *points[at].in_odom;
       EXPECT_LT(error.norm(), 0.1 + 4.0 * sigma_m) << "frame " << i << ", depth " << depth_m;
     }
@@ -283,7 +284,7 @@ TEST(MotionStage, KnowsThePointsOfTheStaticSceneAndWhereTheyAre) {
 
 TEST(MotionStage, StatesALargerLeanForASmallerRig) {
   const auto stated = [](double focal_length_px, double baseline_m) {
-    vision::RectifiedStereo stereo = kStereo;
+    vision::RectifiedStereo stereo = kStageStereo;
     stereo.camera.fx = stereo.camera.fy = focal_length_px;
     stereo.baseline_m = baseline_m;
     return MotionStage(stereo, {}).estimate(TrackedFrame{}).quality.lean_sigma_rad_per_m;
@@ -298,7 +299,7 @@ TEST(MotionStage, BeginsWithMorePointsThanItNeeds) {
   constexpr double kSmall_m2 = 0.05 * 0.05;
   const MotionParameters parameters;
   DriveBehindACar drive;
-  MotionStage stage(kStereo, parameters, nullptr);
+  MotionStage stage(kStageStereo, parameters, nullptr);
   TrackedFrame poor = drive.frame(0);
   poor.observations.resize(static_cast<std::size_t>(parameters.min_inliers));
   poor.matched = parameters.min_inliers;
@@ -313,7 +314,7 @@ TEST(MotionStage, BeginsWithMorePointsThanItNeeds) {
 
 TEST(MotionStage, HasNoPointsWithoutAMotion) {
   DriveBehindACar drive;
-  MotionStage stage(kStereo, {}, nullptr);
+  MotionStage stage(kStageStereo, {}, nullptr);
   stage.estimate(drive.frame(0));
   TrackedFrame black;
   black.stamp_ns = drive.frame(1).stamp_ns;

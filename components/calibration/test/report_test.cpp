@@ -16,15 +16,15 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using vision::LensModel;
 
-const Board kBoard = parse_board("charuco:10x7:0.04:0.03");
+const Board kCharuco = parse_board("charuco:10x7:0.04:0.03");
 
 Report report_of(int boards, double widest_off_deg, double noise_px) {
   const auto truth = test::stereo_pair(test::plumb_bob());
   Report report;
   report.title = "Calibration <test>";
-  report.board = kBoard;
+  report.board = kCharuco;
   report.seen =
-      test::observe(kBoard, truth, test::hold_boards(kBoard, truth, boards, widest_off_deg, 0.5, 3), noise_px, 4);
+      test::observe(kCharuco, truth, test::hold_boards(kCharuco, truth, boards, widest_off_deg, 0.5, 3), noise_px, 4);
   report.calibration =
       calibrate(report.seen, {{LensModel::kPlumbBob, LensModel::kPlumbBob}, {std::nullopt, std::nullopt}});
   const auto& cameras = report.calibration.rig.cameras;

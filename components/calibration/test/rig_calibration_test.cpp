@@ -20,7 +20,7 @@ using ::testing::SizeIs;
 using vision::LensModel;
 
 constexpr double kNoise_px = 0.05;  // corner noise of a sharp image
-const Board kBoard = parse_board("charuco:10x7:0.04:0.03");
+const Board kRigBoard = parse_board("charuco:10x7:0.04:0.03");
 const Board kChessboard = parse_board("chessboard:9x6:0.04");
 
 RigOptions unknown_lenses(std::size_t count, LensModel model) {
@@ -103,8 +103,8 @@ class StereoCalibrationOf : public ::testing::TestWithParam<Case> {};
 TEST_P(StereoCalibrationOf, GivesBackLensesAndPosesAtKnownNoise) {
   const auto& lens = GetParam().lens;
   const auto truth = test::stereo_pair(lens);
-  const auto boards = test::hold_boards(kBoard, truth, 40, GetParam().widest_off_deg, GetParam().nearest_m, 7);
-  const auto observations = test::observe(kBoard, truth, boards, kNoise_px, 8);
+  const auto boards = test::hold_boards(kRigBoard, truth, 40, GetParam().widest_off_deg, GetParam().nearest_m, 7);
+  const auto observations = test::observe(kRigBoard, truth, boards, kNoise_px, 8);
   const auto found = calibrate(observations, unknown_lenses(2, lens.model));
   for (std::size_t i = 0; i < 2; ++i) {
     expect_same_lens(found, i, truth[i].lens);
@@ -120,9 +120,9 @@ TEST_P(StereoCalibrationOf, GivesBackLensesAndPosesAtKnownNoise) {
 
 TEST_P(StereoCalibrationOf, KnowsHowFarItMayBeOff) {
   const auto truth = test::stereo_pair(GetParam().lens);
-  const auto boards = test::hold_boards(kBoard, truth, 30, GetParam().widest_off_deg, GetParam().nearest_m, 17);
+  const auto boards = test::hold_boards(kRigBoard, truth, 30, GetParam().widest_off_deg, GetParam().nearest_m, 17);
   const auto found =
-      calibrate(test::observe(kBoard, truth, boards, kNoise_px, 18), unknown_lenses(2, GetParam().lens.model));
+      calibrate(test::observe(kRigBoard, truth, boards, kNoise_px, 18), unknown_lenses(2, GetParam().lens.model));
   ASSERT_TRUE(found.sigmas);
   for (std::size_t i = 0; i < 2; ++i) {
     const Eigen::VectorXd off = lens_parameters(found.rig.cameras[i].lens) - lens_parameters(truth[i].lens);
@@ -157,9 +157,9 @@ TEST(RigCalibration, FindsSixFisheyesOfWhichOnlyNeighboursShareBoards) {
                                      {0.0, yaw, 0.0})});
   }
   truth.push_back({lens, camera_at({0.0, -0.04, 0.0}, {90.0, 0.0, 0.0})});
-  const auto boards = test::hold_boards(kBoard, truth, 72, 75.0, 0.35, 3);
+  const auto boards = test::hold_boards(kRigBoard, truth, 72, 75.0, 0.35, 3);
   const auto found =
-      calibrate(test::observe(kBoard, truth, boards, kNoise_px, 4), unknown_lenses(6, LensModel::kEquidistant));
+      calibrate(test::observe(kRigBoard, truth, boards, kNoise_px, 4), unknown_lenses(6, LensModel::kEquidistant));
   for (std::size_t i = 0; i < truth.size(); ++i) {
     expect_same_lens(found, i, truth[i].lens);
     expect_same_pose(found.rig.cameras[i].camera_from_reference,
@@ -171,14 +171,14 @@ TEST(RigCalibration, FindsPosesOfLensesOfDifferentKindsThatAreHeld) {
   const std::vector<RigCamera> truth{{test::plumb_bob()},
                                      {test::fisheye(), camera_at({-0.1, -0.5, 0.2}, {20.0, 15.0, 178.0})},
                                      {test::plumb_bob(), camera_at({0.12, 0.0, 0.0}, {0.0, 1.0, 0.0})}};
-  const auto boards = test::hold_boards(kBoard, truth, 30, 30.0, 0.6, 5);
+  const auto boards = test::hold_boards(kRigBoard, truth, 30, 30.0, 0.6, 5);
   RigOptions options;
   options.are_lenses_held = true;
   for (const auto& camera : truth) {
     options.models.push_back(camera.lens.model);
     options.lenses.emplace_back(camera.lens);
   }
-  const auto found = calibrate(test::observe(kBoard, truth, boards, kNoise_px, 6), options);
+  const auto found = calibrate(test::observe(kRigBoard, truth, boards, kNoise_px, 6), options);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_EQ(lens_parameters(found.rig.cameras[i].lens), lens_parameters(truth[i].lens));
     expect_same_pose(found.rig.cameras[i].camera_from_reference, truth[i].camera_from_reference);

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-const Board kBoard = parse_board("chessboard:9x6:0.04");
+const Board kViewBoard = parse_board("chessboard:9x6:0.04");
 const cv::Size kImage(640, 480);
 
 /// Corners of the board in a camera without distortion; board centre at `middle_m`, rotated by a rotation vector.
@@ -23,17 +23,17 @@ std::vector<Corner> seen_at(const Eigen::Vector3d& middle_m,
                             const Eigen::Vector3d& turn_deg = Eigen::Vector3d::Zero()) {
   constexpr double kFocal_px = 400.0;
   const Eigen::Matrix3d turn = vision::so3_exp(kDegree * turn_deg);
-  const Eigen::Vector3d middle = 0.5 * (kBoard.point(0) + kBoard.point(kBoard.corners() - 1));
+  const Eigen::Vector3d middle = 0.5 * (kViewBoard.point(0) + kViewBoard.point(kViewBoard.corners() - 1));
   std::vector<Corner> corners;
-  for (int id = 0; id < kBoard.corners(); ++id) {
-    const Eigen::Vector3d at = turn * (kBoard.point(id) - middle) + middle_m;
+  for (int id = 0; id < kViewBoard.corners(); ++id) {
+    const Eigen::Vector3d at = turn * (kViewBoard.point(id) - middle) + middle_m;
     corners.push_back({id, kFocal_px * at.head<2>() / at.z() + Eigen::Vector2d(320, 240)});
   }
   return corners;
 }
 
 BoardLook look_at(const Eigen::Vector3d& middle_m, const Eigen::Vector3d& turn_deg = Eigen::Vector3d::Zero()) {
-  return look_of(seen_at(middle_m, turn_deg), kBoard, kImage).value();
+  return look_of(seen_at(middle_m, turn_deg), kViewBoard, kImage).value();
 }
 
 TEST(BoardLook, IsWhereAndHowLargeTheBoardIs) {
@@ -55,15 +55,15 @@ TEST(BoardLook, TellsWhichWayTheBoardIsTiltedHoweverItIsTurnedInTheImage) {
 TEST(BoardLook, IsNoneOfCornersOnALine) {
   auto corners = seen_at({0.0, 0.0, 1.0});
   corners.resize(9);
-  EXPECT_FALSE(look_of(corners, kBoard, kImage));
-  EXPECT_FALSE(look_of({corners[0], corners[1]}, kBoard, kImage));
-  EXPECT_FALSE(look_of({}, kBoard, kImage));
+  EXPECT_FALSE(look_of(corners, kViewBoard, kImage));
+  EXPECT_FALSE(look_of({corners[0], corners[1]}, kViewBoard, kImage));
+  EXPECT_FALSE(look_of({}, kViewBoard, kImage));
 }
 
 ViewChoice choice_of(std::size_t cameras, const ViewGoals& goals = {}) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < cameras; ++i) names.push_back("camera_" + std::to_string(i));
-  return {names, std::vector<cv::Size>(cameras, kImage), kBoard, goals};
+  return {names, std::vector<cv::Size>(cameras, kImage), kViewBoard, goals};
 }
 
 TEST(ViewChoice, KeepsWhatDiffersInPlaceSizeOrSlantAndNothingElse) {

@@ -24,7 +24,8 @@ class ClockJump {
   }
 
  private:
-  static constexpr std::int64_t kLeast_ns = 500'000'000;       // as for clocks that are set back
+  /// Longer than a first message waits in a process that is starting; so short a silence is no trouble.
+  static constexpr std::int64_t kLeast_ns = 2'000'000'000;
   static constexpr std::int64_t kForget = 1000;                // clocks drift by less than this fraction of the time
   static constexpr std::int64_t kMaxSince_ns = 1'000'000'000;  // a silence is no reason to forget
 

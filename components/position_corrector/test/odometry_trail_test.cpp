@@ -6,7 +6,7 @@
 namespace panvo::position_corrector {
 namespace {
 
-constexpr std::int64_t kPeriod_ns = 40'000'000;
+constexpr std::int64_t kFrame_ns = 40'000'000;
 
 OdometrySample sample(std::int64_t stamp_ns, double x_m, double speed_m_s, double sigma_m = 0.5) {
   OdometrySample made{stamp_ns, {Eigen::Vector3d(x_m, 0.0, 0.0), sigma_m}, vision::Vector6d::Zero()};
@@ -18,15 +18,15 @@ TEST(OdometryTrail, KnowsNothingBeforeTheFirstMessage) { EXPECT_FALSE(OdometryTr
 
 TEST(OdometryTrail, HasTheWayThatWasDriven) {
   OdometryTrail trail;
-  for (int i = 0; i <= 25; ++i) trail.add(sample(i * kPeriod_ns, 0.2 * i, 5.0));
-  EXPECT_NEAR(trail.at(25 * kPeriod_ns)->travelled_m, 5.0, 1e-9);
+  for (int i = 0; i <= 25; ++i) trail.add(sample(i * kFrame_ns, 0.2 * i, 5.0));
+  EXPECT_NEAR(trail.at(25 * kFrame_ns)->travelled_m, 5.0, 1e-9);
 }
 
 TEST(OdometryTrail, CountsACorrectionsJumpAsNoWay) {
   OdometryTrail trail;
-  for (int i = 0; i <= 10; ++i) trail.add(sample(i * kPeriod_ns, 0.2 * i, 5.0));
-  trail.add(sample(11 * kPeriod_ns, 2.2 + 30.0, 5.0, 0.1));
-  const auto here = trail.at(11 * kPeriod_ns);
+  for (int i = 0; i <= 10; ++i) trail.add(sample(i * kFrame_ns, 0.2 * i, 5.0));
+  trail.add(sample(11 * kFrame_ns, 2.2 + 30.0, 5.0, 0.1));
+  const auto here = trail.at(11 * kFrame_ns);
   ASSERT_TRUE(here);
   EXPECT_NEAR(here->travelled_m, 2.2, 1e-9);
   EXPECT_DOUBLE_EQ(here->prior.position.x(), 32.2);
@@ -35,8 +35,8 @@ TEST(OdometryTrail, CountsACorrectionsJumpAsNoWay) {
 
 TEST(OdometryTrail, TellsWhereTheVehicleWasWhenALatePanoramaWasTaken) {
   OdometryTrail trail;
-  for (int i = 0; i <= 25; ++i) trail.add(sample(i * kPeriod_ns, 0.2 * i, 5.0));
-  const auto then = trail.at(10 * kPeriod_ns + kPeriod_ns / 4);
+  for (int i = 0; i <= 25; ++i) trail.add(sample(i * kFrame_ns, 0.2 * i, 5.0));
+  const auto then = trail.at(10 * kFrame_ns + kFrame_ns / 4);
   ASSERT_TRUE(then);
   EXPECT_NEAR(then->prior.position.x(), 2.05, 1e-9);
   EXPECT_NEAR(then->travelled_m, 2.05, 1e-9);
@@ -64,7 +64,7 @@ class AClockThatIsSetBack : public testing::Test {
  protected:
   static constexpr int kBefore = 100, kConfirming = 5;
 
-  static std::int64_t stamp_ns(int i) { return (1'000 - (i < kBefore ? 0 : 600)) * 1'000'000'000LL + i * kPeriod_ns; }
+  static std::int64_t stamp_ns(int i) { return (1'000 - (i < kBefore ? 0 : 600)) * 1'000'000'000LL + i * kFrame_ns; }
 
   void drive_to(int end) {
     for (; next < end; ++next) trail.add(sample(stamp_ns(next), 0.2 * next, 5.0));
@@ -79,7 +79,7 @@ TEST_F(AClockThatIsSetBack, IsFollowed) {
   for (; next < kBefore + 1000; drive_to(next + 1)) {
     EXPECT_DOUBLE_EQ(trail.at(stamp_ns(next - 1))->prior.position.x(), 0.2 * (next - 1));
   }
-  EXPECT_NEAR(trail.at(stamp_ns(next - 50) - kPeriod_ns / 4)->prior.position.x(), 0.2 * (next - 50) - 0.05, 1e-9);
+  EXPECT_NEAR(trail.at(stamp_ns(next - 50) - kFrame_ns / 4)->prior.position.x(), 0.2 * (next - 50) - 0.05, 1e-9);
 }
 
 TEST_F(AClockThatIsSetBack, EndsTheStampsButNotTheWay) {

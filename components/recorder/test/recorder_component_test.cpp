@@ -19,7 +19,7 @@ using panvo::test::TemporaryFolder;
 using runtime::ComponentHarness;
 using testing::HasSubstr;
 
-nav_msgs::msg::Odometry odometry(std::int32_t sec) {
+nav_msgs::msg::Odometry odometry_number(std::int32_t sec) {
   nav_msgs::msg::Odometry message;
   message.header().stamp().sec(sec);
   message.header().frame_id("odom");
@@ -37,7 +37,7 @@ sensor_msgs::msg::Image image(std::uint32_t bytes) {
 }
 
 template <class Message>
-interfaces::Bytes bytes_of(const Message& message) {
+interfaces::Bytes encoded(const Message& message) {
   const auto& type = interfaces::message_type<Message>();
   interfaces::Bytes bytes(type.serialized_size(&message));
   type.serialize(&message, bytes);
@@ -82,7 +82,7 @@ class OneStep final : public runtime::Component, public runtime::Source {
   std::optional<std::int64_t> next_stamp_ns() override { return done_ ? std::nullopt : std::optional(kTime); }
   void emit() override {
     done_ = true;
-    odometry_.publish(odometry(1));
+    odometry_.publish(odometry_number(1));
   }
   Progress progress() const override { return {}; }
 
@@ -143,9 +143,9 @@ class Recorder : public testing::Test {
 
 TEST_F(Recorder, WritesWhatIsPublished) {
   record();
-  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(1));
   harness_->publish(topics::kStereoLeftImageRaw, image(1000));
-  harness_->publish(topics::kOdometryBinocular, odometry(2));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(2));
   harness_.reset();
   BagReader reader(bag_);
   EXPECT_THAT(reader.warnings(), testing::IsEmpty());
@@ -158,25 +158,25 @@ TEST_F(Recorder, WritesWhatIsPublished) {
       odometries.push_back(message->data);
     }
   }
-  EXPECT_THAT(odometries, testing::ElementsAre(bytes_of(odometry(1)), bytes_of(odometry(2))));
+  EXPECT_THAT(odometries, testing::ElementsAre(encoded(odometry_number(1)), encoded(odometry_number(2))));
 }
 
 TEST_F(Recorder, WritesMcapWhenToldTo) {
   record({{"storage", "mcap"}, {"compression", "zstd"}});
-  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(1));
   harness_.reset();
   BagReader reader(bag_);
   EXPECT_THAT(reader.warnings(), testing::IsEmpty());
   EXPECT_EQ(reader.metadata().storage_identifier, "mcap");
   const auto messages = read_all(reader);
   EXPECT_TRUE(std::any_of(messages.begin(), messages.end(),
-                          [](const Read& message) { return message.data == bytes_of(odometry(1)); }));
+                          [](const Read& message) { return message.data == encoded(odometry_number(1)); }));
 }
 
 TEST_F(Recorder, TakesTheTopicsItIsToldTo) {
   record({{"topics", "[/odometry/.*, /tf_static]"}, {"exclude", "[.*/enhanced]"}});
-  harness_->publish(topics::kOdometryBinocular, odometry(1));
-  harness_->publish(topics::kOdometryEnhanced, odometry(1));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(1));
+  harness_->publish(topics::kOdometryEnhanced, odometry_number(1));
   harness_->publish(topics::kStereoLeftImageRaw, image(10));
   harness_->publish(topics::kTfStatic, tf2_msgs::msg::TFMessage());
   EXPECT_THAT(recorded_topics(), testing::UnorderedElementsAre("/odometry/binocular", "/tf_static"));
@@ -184,7 +184,7 @@ TEST_F(Recorder, TakesTheTopicsItIsToldTo) {
 
 TEST_F(Recorder, LeavesImagesOutWhenToldTo) {
   record({{"include_images", "false"}});
-  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(1));
   harness_->publish(topics::kStereoLeftImageRaw, image(10));
   EXPECT_THAT(recorded_topics(), testing::ElementsAre("/odometry/binocular"));
 }
@@ -209,7 +209,7 @@ TEST_F(Recorder, CountsWhatItDropsWhenTheDiskIsTooSlow) {
   // In replay, the messages of one step wait until the step ends: three images of 600 kB exceed the queue.
   record({{"queue_mb", "1"}, {"topics", "[/stereo/.*]"}});
   harness_->add<ThreeImages>("three_images");
-  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(1));
   EXPECT_TRUE(harness_->log_contains("dropped"));
   harness_.reset();
   BagReader reader(bag_);
@@ -224,7 +224,7 @@ TEST_F(Recorder, WritesWhatWaitsWhenItIsUnloaded) {
   harness_->container().add(description("unloader"), [this](runtime::Context& context) {
     return std::make_unique<Unloader>(context, harness_->container());
   });
-  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(1));
   EXPECT_THAT(harness_->container().components(), testing::Not(testing::Contains("recorder")));
   BagReader reader(bag_);
   EXPECT_EQ(read_all(reader).size(), 2u);
@@ -234,7 +234,7 @@ TEST_F(Recorder, WritesWhatWaitsWhenItIsUnloaded) {
 TEST_F(Recorder, KeepsTheBagsOfTheCrashedProcessesThatItReplaces) {
   for (const bool again : {false, true, true}) {
     record({{"overwrite", "true"}, {"topics", "[/odometry/.*]"}}, again);
-    harness_->publish(topics::kOdometryBinocular, odometry(1));
+    harness_->publish(topics::kOdometryBinocular, odometry_number(1));
     EXPECT_EQ(harness_->log_contains("what was recorded before the crash is kept"), again);
     harness_.reset();
   }
@@ -246,10 +246,10 @@ TEST_F(Recorder, KeepsTheBagsOfTheCrashedProcessesThatItReplaces) {
 
 TEST_F(Recorder, LeavesOutTopicsBeyondTheMostAndNamesThem) {
   record({{"max_topics", "1"}, {"topics", "[/odometry/.*, /tf]"}});
-  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(1));
   harness_->publish(topics::kTf, tf2_msgs::msg::TFMessage());
-  harness_->publish(topics::kOdometryBinocular, odometry(2));
-  harness_->publish(topics::kOdometryEnhanced, odometry(1));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(2));
+  harness_->publish(topics::kOdometryEnhanced, odometry_number(1));
   EXPECT_TRUE(harness_->log_contains("1 topics are skipped, e.g. /tf: max_topics is 1"));
   harness_->container().run();
   EXPECT_TRUE(harness_->log_contains("2 topics are skipped, e.g. /odometry/enhanced: max_topics is 1; increase it"));
@@ -264,7 +264,7 @@ TEST_F(Recorder, FailsARunOfWhichItRecordedNothing) {
 
 TEST_F(Recorder, FailsARunAtWhoseEndItsFileIsGone) {
   record({{"topics", "[/odometry/.*]"}});
-  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kOdometryBinocular, odometry_number(1));
   std::filesystem::remove_all(bag_);
   harness_->add<OneStep<kStart>>("one_step");
   EXPECT_THAT(harness_->container().run(), testing::ElementsAre(HasSubstr("was removed while it was being recorded")));

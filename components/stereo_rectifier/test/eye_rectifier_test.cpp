@@ -14,13 +14,13 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr int kWidth = 320, kHeight = 240;
+constexpr int kEyeWidth = 320, kEyeHeight = 240;
 
 /// A realistic pair: wide lenses, rotated by a few degrees relative to each other, not exactly side by side.
 vision::StereoCalibration raw_pair() {
   vision::StereoCalibration pair;
-  pair.left.pinhole = {262, 263, 156, 124, kWidth, kHeight};
-  pair.right.pinhole = {264, 265, 160, 121, kWidth, kHeight};
+  pair.left.pinhole = {262, 263, 156, 124, kEyeWidth, kEyeHeight};
+  pair.right.pinhole = {264, 265, 160, 121, kEyeWidth, kEyeHeight};
   pair.left.distortion = {-0.36, 0.17, 0.001, -0.0005, 0.0};
   pair.right.distortion = {-0.35, 0.16, -0.0008, 0.0004, 0.0};
   pair.right_from_left.linear() =
@@ -41,7 +41,7 @@ Infos infos(const vision::StereoCalibration& pair, const vision::RectifiedStereo
 /// A pair that needs no rectification.
 Infos rectified_infos() {
   vision::StereoCalibration pair;
-  pair.left.pinhole = pair.right.pinhole = {262, 262, 160, 120, kWidth, kHeight};
+  pair.left.pinhole = pair.right.pinhole = {262, 262, 160, 120, kEyeWidth, kEyeHeight};
   vision::RectifiedStereo rectified;
   rectified.camera = pair.left.pinhole;
   rectified.baseline_m = 0.12;
@@ -68,12 +68,12 @@ std::vector<Eigen::Vector3d> points_in_left() {
 
 /// An image of bright spots at these pixels.
 std::shared_ptr<const sensor_msgs::msg::Image> spots(const std::vector<Eigen::Vector2d>& pixels) {
-  const auto image = conversions::make_image(7, "left", "mono8", kWidth, kHeight);
+  const auto image = conversions::make_image(7, "left", "mono8", kEyeWidth, kEyeHeight);
   cv::Mat view = conversions::pixels(*image);
   for (const auto& pixel : pixels) {
     for (int v = static_cast<int>(pixel.y()) - 7; v <= static_cast<int>(pixel.y()) + 8; ++v) {
       for (int u = static_cast<int>(pixel.x()) - 7; u <= static_cast<int>(pixel.x()) + 8; ++u) {
-        if (u < 0 || v < 0 || u >= kWidth || v >= kHeight) continue;
+        if (u < 0 || v < 0 || u >= kEyeWidth || v >= kEyeHeight) continue;
         const double squared = (u - pixel.x()) * (u - pixel.x()) + (v - pixel.y()) * (v - pixel.y());
         view.at<std::uint8_t>(v, u) =
             cv::saturate_cast<std::uint8_t>(view.at<std::uint8_t>(v, u) + 220.0 * std::exp(-squared / 8.0));
@@ -172,20 +172,20 @@ TEST(EyeRectifier, RefusesALensThatFoldsTheImageOver) {
   auto info = rectified_infos().left;
   info.d({-0.9, 0.0, 0.0, 0.0, 0.0});
   auto rectifier = rectifier_of(info);
-  const auto raw =
-      std::shared_ptr<const sensor_msgs::msg::Image>(conversions::make_image(7, "left", "mono8", kWidth, kHeight));
+  const auto raw = std::shared_ptr<const sensor_msgs::msg::Image>(
+      conversions::make_image(7, "left", "mono8", kEyeWidth, kEyeHeight));
   EXPECT_THAT(rectifier.rectify(raw).reason(), AllOf(HasSubstr("not invertible beyond"), HasSubstr("calibrate")));
 }
 
 TEST(EyeRectifier, HandsOnARectifiedImageItself) {
   auto rectifier = rectifier_of(rectified_infos().right);
-  const auto raw =
-      std::shared_ptr<const sensor_msgs::msg::Image>(conversions::make_image(7, "right", "mono8", kWidth, kHeight));
+  const auto raw = std::shared_ptr<const sensor_msgs::msg::Image>(
+      conversions::make_image(7, "right", "mono8", kEyeWidth, kEyeHeight));
   EXPECT_EQ(*rectifier.rectify(raw), raw);
 }
 
 TEST(EyeRectifier, HandsOnColourOnlyIfAskedTo) {
-  const auto raw = conversions::make_image(7, "left", "rgb8", kWidth, kHeight);
+  const auto raw = conversions::make_image(7, "left", "rgb8", kEyeWidth, kEyeHeight);
   conversions::pixels(*raw).setTo(cv::Scalar(200, 0, 0));
   auto grey = rectifier_of(rectified_infos().left);
   const auto rectified = grey.rectify(raw);
@@ -199,7 +199,7 @@ TEST(EyeRectifier, HandsOnColourOnlyIfAskedTo) {
 TEST(EyeRectifier, KeepsStampFrameAndEncoding) {
   const auto pair = raw_pair();
   auto rectifier = rectifier_of(infos(pair, vision::rectify(pair)).left, Output::kSame);
-  const auto raw = conversions::make_image(1'700'000'000'123'456'789, "left", "bgr8", kWidth, kHeight);
+  const auto raw = conversions::make_image(1'700'000'000'123'456'789, "left", "bgr8", kEyeWidth, kEyeHeight);
   const auto rectified = rectifier.rectify(raw);
   ASSERT_TRUE(rectified);
   EXPECT_EQ((*rectified)->header().stamp(), raw->header().stamp());
@@ -219,21 +219,21 @@ TEST(EyeRectifier, TellsAChangeOfTheCameraFromANewHeader) {
 
 TEST(EyeRectifier, SaysWhyAnImageCannotBeRectified) {
   const auto image = [](int width, const char* encoding) {
-    return std::shared_ptr<sensor_msgs::msg::Image>(conversions::make_image(7, "left", encoding, width, kHeight));
+    return std::shared_ptr<sensor_msgs::msg::Image>(conversions::make_image(7, "left", encoding, width, kEyeHeight));
   };
   auto rectifier = rectifier_of(rectified_infos().left);
   EXPECT_THAT(rectifier.rectify(image(64, "mono8")).reason(),
               AllOf(HasSubstr("64 x 240"), HasSubstr("320 x 240"), HasSubstr("calibrate")));
-  const auto cut_off = image(kWidth, "mono8");
+  const auto cut_off = image(kEyeWidth, "mono8");
   cut_off->data().resize(100);
   EXPECT_THAT(rectifier.rectify(cut_off).reason(), HasSubstr("holds 100 bytes"));
-  const auto bayer = image(kWidth, "mono8");
+  const auto bayer = image(kEyeWidth, "mono8");
   bayer->encoding("bayer_rggb8");
   EXPECT_THAT(rectifier.rectify(bayer).reason(), HasSubstr("bayer_rggb8"));
 
   auto uncalibrated = rectifier_of(sensor_msgs::msg::CameraInfo());
-  EXPECT_THAT(uncalibrated.rectify(image(kWidth, "mono8")).reason(), HasSubstr("not calibrated"));
-  EXPECT_THAT(EyeRectifier(Output::kMono8).rectify(image(kWidth, "mono8")).reason(), HasSubstr("no camera_info"));
+  EXPECT_THAT(uncalibrated.rectify(image(kEyeWidth, "mono8")).reason(), HasSubstr("not calibrated"));
+  EXPECT_THAT(EyeRectifier(Output::kMono8).rectify(image(kEyeWidth, "mono8")).reason(), HasSubstr("no camera_info"));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 StreamReport report_of(const StreamCounters& counters) {
   return {.name = "left",
@@ -38,10 +38,10 @@ TEST(StreamCounters, AreAllToldWithTheRateAndTheAge) {
                                 .failed_opens = 7,
                                 .refused_settings = 0,
                                 .clock_resets = 8,
-                                .newest_stamp_ns = 10 * kSecond};
+                                .newest_stamp_ns = 10 * kSecond_ns};
   StreamCounters before = counters;
   before.frames = 100;
-  const auto status = to_status("aravis_camera", report_of(counters), before, 10 * kSecond + kSecond / 4, 2.0);
+  const auto status = to_status("aravis_camera", report_of(counters), before, 10 * kSecond_ns + kSecond_ns / 4, 2.0);
   EXPECT_EQ(status.name(), "panvo: aravis_camera: left");
   EXPECT_EQ(status.hardware_id(), "GVL");
   EXPECT_EQ(status.level(), 0);
