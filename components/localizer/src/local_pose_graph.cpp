@@ -135,7 +135,7 @@ std::vector<KnownLandmark> LocalPoseGraph::landmarks() const {
 
 PoseInMap LocalPoseGraph::carried(const OdometrySample& at) const {
   PoseInMap here = reckoned(at);
-  const Node* const from = solved_node();
+  const Node* const from = enu_ ? solved_node() : last_known_pass();
   if (from == nullptr || at.pose.stamp_ns < from->at.pose.stamp_ns) return here;
   here.covariance +=
       vision::rotate_covariance(from->map_from_base.linear(), scale_covariance(way_between(from->at.pose, at.pose)));
@@ -153,12 +153,7 @@ PoseInMap LocalPoseGraph::reckoned(const OdometrySample& at) const {
 }
 
 vision::Matrix6d LocalPoseGraph::common_covariance(const Eigen::Vector3d& position, double direction_sigma_rad) const {
-  const Node* last = nullptr;
-  for (const auto& node : nodes_) {
-    if (!node.is_pass || !known_.contains(node.landmark_id)) continue;
-    if (last == nullptr || node.at.pose.stamp_ns > last->at.pose.stamp_ns) last = &node;
-  }
-  if (last != nullptr) return known_.at(last->landmark_id).covariance;
+  if (const Node* const last = last_known_pass()) return known_.at(last->landmark_id).covariance;
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   const Eigen::Vector3d way = position - nodes_.front().map_from_base.translation();
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(way);
@@ -220,6 +215,15 @@ const LocalPoseGraph::Node* LocalPoseGraph::landmark_node(std::uint32_t id) cons
   const auto found = std::find_if(nodes_.begin(), nodes_.end(),
                                   [&](const Node& node) { return node.landmark_id == id && id != 0 && !node.is_pass; });
   return found == nodes_.end() ? nullptr : &*found;
+}
+
+const LocalPoseGraph::Node* LocalPoseGraph::last_known_pass() const {
+  const Node* last = nullptr;
+  for (const auto& node : nodes_) {
+    if (!node.is_pass || !known_.contains(node.landmark_id)) continue;
+    if (last == nullptr || node.at.pose.stamp_ns > last->at.pose.stamp_ns) last = &node;
+  }
+  return last;
 }
 
 /// The last node of this journey up to a time, else its first node.

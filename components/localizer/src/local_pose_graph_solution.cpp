@@ -182,7 +182,8 @@ const LocalPoseGraph::Node* LocalPoseGraph::solved_node() const {
 /// Covariance that a way gains by the scale, in the axes of its begin.
 vision::Matrix6d LocalPoseGraph::scale_covariance(const Eigen::Isometry3d& way) const {
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  covariance.topLeftCorner<3, 3>() = scale_.sigma * scale_.sigma * way.translation() * way.translation().transpose();
+  const double sigma = enu_ ? scale_.sigma : scale_sigma_;
+  covariance.topLeftCorner<3, 3>() = sigma * sigma * way.translation() * way.translation().transpose();
   return covariance;
 }
 

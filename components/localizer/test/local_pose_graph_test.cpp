@@ -76,6 +76,21 @@ TEST(LocalPoseGraph, RenewsTheCovariancesNearTheVehicleInALargeMap) {
   EXPECT_EQ(sigma_m(20), far_m);           // of another part of the map
 }
 
+TEST(LocalPoseGraph, KnowsWhatTheScaleAddsAfterTheLastStoredLandmark) {
+  constexpr double kScaleSigma = 0.002, kWay_m = 1000.0;
+  LocalPoseGraph graph(0.01, 0.001, kScaleSigma, {});
+  graph.start({});
+  graph.add_known({1, -1, at_x(0.0), variance(0.05)});
+  ASSERT_TRUE(graph.add_pass(sighting_in_lap(1), in_lap(1), 20.0));
+  ASSERT_TRUE(graph.solve());
+  OdometrySample there = in_lap(1);
+  const auto here = graph.carried(there);
+  there.pose.stamp_ns += 1'000'000'000;
+  there.pose.odom_from_base = there.pose.odom_from_base * at_x(kWay_m);
+  const vision::Matrix6d gained = graph.carried(there).covariance - here.covariance;
+  EXPECT_NEAR(std::sqrt(gained(0, 0)), kScaleSigma * kWay_m, 0.01);
+}
+
 TEST(LocalPoseGraph, SaysWhereItCannotBeSolved) {
   LocalPoseGraph graph(0.01, 0.001, 0.0, {});
   graph.start({});

@@ -92,8 +92,9 @@ class LocalPoseGraph {
   /// Landmarks of this journey and those of earlier journeys that were seen, by ascending id.
   std::vector<KnownLandmark> landmarks() const;
 
-  /// Pose in the map of an odometry pose, from the last node before it. Precondition: started. With satellites, the
-  /// uncertainty of the scale counts from the last solution on.
+  /// Pose in the map of an odometry pose, from the last node before it. Precondition: started. The
+  /// uncertainty of the scale counts from the last solution with satellites on, or the last pass by a landmark of an
+  /// earlier journey; before either, it is common_covariance().
   PoseInMap carried(const OdometrySample& at) const;
 
   /// Error common to all poses, which the graph cannot contain: that of the earlier journeys' map, taken from its most
@@ -150,6 +151,7 @@ class LocalPoseGraph {
   const Node* landmark_node(std::uint32_t id) const;
   const Node& anchor(std::int64_t stamp_ns) const;
   const Node* solved_node() const;
+  const Node* last_known_pass() const;
   PoseInMap reckoned(const OdometrySample& at) const;
   vision::Matrix6d scale_covariance(const Eigen::Isometry3d& way) const;
   std::vector<std::size_t> journey_order() const;
