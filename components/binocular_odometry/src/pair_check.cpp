@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pair_check.hpp"
 
-#include <cmath>
-
 #include "panvo/vision/image_check.hpp"
 
 namespace panvo::binocular_odometry {
 namespace {
-
-constexpr int kMinSeen = 20;
-// Recordings have at least 0.75, mostly 0.9. A half-covered camera gives 0.5; a camera that is one frame late gives
-// less at 5 m/s.
-constexpr double kSeenByBoth = 0.5;
 
 std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height) + " px"; }
 
@@ -39,13 +32,6 @@ std::optional<std::string> PairCheck::fault_of(const char* name, const cv::Mat& 
   if (image.cols == camera_.width && image.rows == camera_.height) return std::nullopt;
   return std::string(name) + " is " + size_text(image.cols, image.rows) + ", the calibration is for " +
          size_text(camera_.width, camera_.height);
-}
-
-std::optional<std::string> find_disagreement(int seen, int seen_by_both) {
-  const int needed = static_cast<int>(std::ceil(kSeenByBoth * seen));
-  if (seen < kMinSeen || seen_by_both >= needed) return std::nullopt;
-  return "left and right images do not match: of " + std::to_string(seen) + " features tracked in the left image, " +
-         std::to_string(seen_by_both) + " were found in the right image, " + std::to_string(needed) + " needed";
 }
 
 }  // namespace panvo::binocular_odometry

@@ -29,9 +29,4 @@ class PairCheck {
   vision::RepeatedImage left_, right_;
 };
 
-/// Checks whether both cameras see the same scene: of `seen` features tracked in the left image, `seen_by_both` were
-/// found in the right one. Returns the fault (right camera late, covered, blurred or rotated); nullopt if there is none
-/// or too few features to decide.
-std::optional<std::string> find_disagreement(int seen, int seen_by_both);
-
 }  // namespace panvo::binocular_odometry

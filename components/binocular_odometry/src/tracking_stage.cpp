@@ -17,6 +17,7 @@
 #include "motion_model.hpp"
 #include "pair_check.hpp"
 #include "panvo/vision/stereo_matcher.hpp"
+#include "scene_check.hpp"
 #include "stamp_check.hpp"
 #include "stereo_pyramids.hpp"
 #include "swap_check.hpp"
@@ -128,10 +129,13 @@ class TrackingStage::Implementation {
     HostFrame host(stereo_, images, state_.matcher, followed.offset,
                    state_.odom_from_left * followed.current_from_previous.inverse());
     reanchor_tracks(host, tracks);
+    const auto before = static_cast<int>(tracks.size());
     const std::size_t tried = detect(host, tracks);
     result.detected = static_cast<int>(tracks.size());
     result.matched = with_disparity(tracks);
-    result.fault = find_mismatch(images, result, tried, seen_by_both).value_or("");
+    result.fault = find_mismatch(images, result, tried,
+                                 {result.tracked, seen_by_both, before + static_cast<int>(tried), result.matched})
+                       .value_or("");
     if (followed.tried_descriptors) tries_.tried(frame.stamp_ns, !followed.is_measured || !result.fault.empty());
     if (!result.fault.empty()) return result;
 
@@ -289,12 +293,12 @@ class TrackingStage::Implementation {
 
   /// Left and right images swapped, or not of one scene.
   std::optional<std::string> find_mismatch(const StereoPyramids& images, const TrackedFrame& frame, std::size_t tried,
-                                           int seen_by_both) const {
+                                           const FeatureCounts& counts) {
     const Stage stage(observer_, "check_for_swap");
     const auto searched = static_cast<double>(tried + state_.tracks.size());
     const auto swap = swap_check_.find_fault(frame.matched, searched, state_.matcher, *images.left, images.right,
                                              [&] { return front_end_->detect(empty_grid()); });
-    return swap ? swap : find_disagreement(frame.tracked, seen_by_both);
+    return swap ? swap : scene_check_.find_fault(counts, frame.stamp_ns);
   }
 
   void align_cameras(std::span<const std::optional<vision::RowError>> row_errors) {
@@ -318,6 +322,7 @@ class TrackingStage::Implementation {
 
   Arrivals arrivals_;
   DescriptorTries tries_;
+  SceneCheck scene_check_;
   TrackingState state_;
 };
 

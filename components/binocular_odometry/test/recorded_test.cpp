@@ -132,10 +132,10 @@ TEST(RecordedKitti03, SiftKeepsToItAsWell) {
   EXPECT_LT(run.absolute_trajectory_error_m(), 0.10);
 }
 
-/// Four seconds with black images, a gap or frozen cameras.
+/// Four seconds with black images, a gap, frozen cameras, or one that is late by an image.
 TEST(RecordedKitti03, ItsErrorLiesWithinItsCovarianceWhenCamerasLie) {
   PANVO_NEEDS_RECORDING(recorded_data("kitti_03"));
-  cv::Mat last_left, last_right;
+  cv::Mat last_left, last_right, image_before;
   const auto lie_with = [](const Disturbance& disturb) {
     return [disturb](int frame, cv::Mat& left, cv::Mat& right) {
       return frame < 30 || frame >= 70 || disturb(frame, left, right);
@@ -149,6 +149,13 @@ TEST(RecordedKitti03, ItsErrorLiesWithinItsCovarianceWhenCamerasLie) {
   const std::map<std::string, Disturbance> lies{
       {"black", [](int, cv::Mat& left, cv::Mat&) { return left.setTo(0), true; }},
       {"gap", [](int, cv::Mat&, cv::Mat&) { return false; }},
+      {"left is late",
+       [&](int, cv::Mat& left, cv::Mat&) {
+         const cv::Mat now = left.clone();
+         if (!image_before.empty()) left = image_before;
+         image_before = now;
+         return true;
+       }},
       {"left hangs",
        [&](int frame, cv::Mat& left, cv::Mat& right) {
          remember(frame, left, right);
