@@ -41,7 +41,7 @@ TEST_F(Scene, IsThatOfBothCamerasAgainWhenAboutAsManyMatchAsBefore) {
     EXPECT_THAT(*fault, HasSubstr("of 300 features in the left image, 130 were found in the right image, 240 as a"));
   }
   EXPECT_EQ(add({0, 0, 300, 200}), std::nullopt);
-  EXPECT_EQ(add({200, 180, 300, 130}), std::nullopt) << "fewer matches alone are no fault";
+  EXPECT_EQ(add({200, 180, 300, 130}), std::nullopt) << "a low share of matches alone is not a fault";
 }
 
 TEST_F(Scene, IsTakenAsItIsAfterTenSeconds) {

@@ -24,10 +24,10 @@ class ClockJump {
   }
 
  private:
-  /// Longer than a first message waits in a process that is starting; so short a silence is no trouble.
+  /// Longer than the first message is delayed while a process starts. A shorter step counts as a gap, which is harmless.
   static constexpr std::int64_t kLeast_ns = 2'000'000'000;
   static constexpr std::int64_t kForget = 1000;                // clocks drift by less than this fraction of the time
-  static constexpr std::int64_t kMaxSince_ns = 1'000'000'000;  // a silence is no reason to forget
+  static constexpr std::int64_t kMaxSince_ns = 1'000'000'000;  // so that a long gap does not discard the offset
 
   std::optional<std::int64_t> fastest_ns_;  // stamp minus arrival, of the fastest messages
   std::int64_t arrival_ns_ = 0;             // of the last message

@@ -55,9 +55,9 @@ struct Restart {
     std::optional<OdometryPose> last;
     int restarts = 0;
     for (int i = 0; i < 20; ++i) {
-      OdometryPose anew = of(told(i));
-      anew.stamp_ns += told(count - 1).stamp_ns + vision::to_ns(gap_s);
-      const auto taken = origin.take(anew);
+      OdometryPose restarted = of(told(i));
+      restarted.stamp_ns += told(count - 1).stamp_ns + vision::to_ns(gap_s);
+      const auto taken = origin.take(restarted);
       restarts += taken.is_new_origin ? 1 : 0;
       if (taken.is_new_origin) {
         EXPECT_FALSE(taken.odometry->is_reliable) << "the gap was not measured";

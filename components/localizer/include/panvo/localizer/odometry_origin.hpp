@@ -12,7 +12,7 @@
 namespace panvo::localizer {
 
 /// Turns odometry into one continuous motion. A pose that no vehicle can reach from the previous one is rejected, and
-/// so is one at which an odometry seems to begin: near its origin, with a much smaller covariance. If several in a row
+/// so is one at which odometry seems to restart: near its origin, with a much smaller covariance. If several in a row
 /// agree on such a place, odometry was restarted with another origin: the motion continues from the last pose, with an
 /// unmeasured gap.
 class OdometryOrigin {
@@ -38,7 +38,7 @@ class OdometryOrigin {
     Eigen::Isometry3d odom_from_base;
   };
   using Places = std::vector<Place>;
-  struct Shift {  // of the pose at which odometry began anew
+  struct Shift {  // the pose at which odometry restarted, as received and as continued
     OdometryPose received, continued;
   };
 
