@@ -39,6 +39,26 @@ async function closed(other: Page): Promise<void> {
   await page.bringToFront();
 }
 
+/** Waits until the page knows these topics, and the server has subscribed for it to those that it wants. */
+async function subscribed(topics: string[]): Promise<void> {
+  await page.waitForFunction((names) => names.every((name) => panvo.topics.some(({ topic }) => topic === name)), { timeout: 20_000, polling: 100 }, topics);
+  // The server does what a client asks in order: the answer to a call comes after the subscriptions before it.
+  await page.waitForFunction(
+    () =>
+      new Promise<boolean>((resolve) => {
+        const on = panvo.on;
+        panvo.on = (happening) => {
+          on.call(panvo, happening);
+          if (happening.kind !== "reply" || happening.call !== 0) return;
+          panvo.on = on;
+          resolve(happening.fault === undefined); // the services may not be known yet
+        };
+        panvo.send({ kind: "call", call: 0, service: "/container/_container/list_nodes", request: {} });
+      }),
+    { timeout: 20_000, polling: 100 },
+  );
+}
+
 before(async () => {
   await server.start();
   browser = await launched();
@@ -47,9 +67,7 @@ before(async () => {
   page = await opened(server.url());
   await becomes("#link-text", "Live");
   await publisher.advertise(topics);
-  // The page has subscribed once it knows the topics and asked for the image.
-  await page.waitForFunction((count) => document.querySelectorAll(".camera.left option").length >= count, {}, 1);
-  await page.waitForFunction(() => panvo.topics.length >= 10);
+  await subscribed(Object.keys(topics));
   for (const [topic, message] of messages()) publisher.publish(topic, message);
   await page.waitForFunction((count) => panvo.drive.enhanced.received === count && panvo.drive.components.has("localizer"), { timeout: 20_000 }, poses);
 });
@@ -125,7 +143,7 @@ const lineColour = (u: number, down: number) =>
 
 test("lines lead from the panorama to the same points of the recognised place, which is turned to the same heading", async () => {
   await publisher.advertise(placeTopics);
-  await page.waitForFunction(() => panvo.topics.some(({ topic }) => topic === "/landmarks/match_points"));
+  await subscribed(Object.keys(placeTopics));
   const jpeg = await page.evaluate(() => {
     const canvas = Object.assign(document.createElement("canvas"), { width: 64, height: 32 });
     return canvas.toDataURL("image/jpeg").split(",")[1]!;

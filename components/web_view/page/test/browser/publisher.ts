@@ -9,6 +9,7 @@ export class Publisher {
   #offered = new Map<string, Channel>();
   #published = new Map<string, number>();
   #waiting: (() => void)[] = [];
+  #subscribed = new Set<string>(); // ids of requests that were answered
   received: { topic: string; message: unknown }[] = [];
   #topics = new Map<number, Channel>(); // by subscription
 
@@ -45,11 +46,14 @@ export class Publisher {
     this.#socket.send(publishFrame(this.#published.get(topic)!, encoded(this.#offered.get(topic)!.schema, message)));
   }
 
+  /** Resolves when the web view has subscribed. */
   async subscribe(topic: string): Promise<void> {
     await this.until(() => this.#offered.has(topic));
     const channel = this.#offered.get(topic)!;
     this.#topics.set(channel.id, channel);
     this.#send({ op: "subscribe", subscriptions: [{ id: channel.id, channelId: channel.id }] });
+    this.#send({ op: "getParameters", parameterNames: [], id: topic }); // answered after what was asked before
+    await this.until(() => this.#subscribed.has(topic));
   }
 
   async until(isTrue: () => boolean): Promise<void> {
@@ -60,8 +64,9 @@ export class Publisher {
     this.#socket.send(JSON.stringify(object));
   }
 
-  #onText(message: { op: string; channels?: Channel[]; level?: number; message?: string }): void {
+  #onText(message: { op: string; channels?: Channel[]; level?: number; message?: string; id?: string }): void {
     if (message.op === "advertise") for (const channel of message.channels!) this.#offered.set(channel.topic, channel);
+    if (message.op === "parameterValues" && message.id) this.#subscribed.add(message.id);
     if (message.op === "status" && message.level === 2) throw new Error(`the web view says: ${message.message}`);
   }
 
