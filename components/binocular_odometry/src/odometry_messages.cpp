@@ -18,6 +18,9 @@ using vision::Vector6d;
 
 namespace {
 
+// (m/s)^2 and (rad/s)^2; conventional for a velocity that is not measured.
+constexpr double kNotMeasured = 1e6;
+
 /// Layout of the points in a PointCloud2.
 struct PackedPoint {
   float x, y, z, u, v;
@@ -59,7 +62,10 @@ nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eige
 
   const double interval_s =
       previous_stamp_ns ? static_cast<double>(estimate.stamp_ns - *previous_stamp_ns) * 1e-9 : 0.0;
-  if (interval_s <= 0.0) return odometry;
+  if (interval_s <= 0.0) {
+    odometry.twist().covariance(conversions::to_array(kNotMeasured * Matrix6d::Identity()));
+    return odometry;
+  }
   const UncertainPose motion =
       motion_of_base(base_from_left, estimate.previous_from_current, estimate.previous_from_current_covariance);
   const Vector6d twist = vision::se3_log(motion.pose) / interval_s;

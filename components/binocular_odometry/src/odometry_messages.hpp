@@ -16,8 +16,8 @@
 namespace panvo::binocular_odometry {
 
 /// Converts an estimate to ROS conventions (REP 103, REP 105): pose of `base_frame` in `odom_frame`, the base_frame of
-/// the first image; mean twist since `previous_stamp_ns` in the axes of base_frame (nullopt: first estimate, zero
-/// twist). Covariances are transformed.
+/// the first image; mean twist since `previous_stamp_ns` in the axes of base_frame, zero with a large covariance
+/// if it is unknown: for the first estimate (nullopt), and after a clock that was set back. Covariances are transformed.
 nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eigen::Isometry3d& base_from_left,
                                     std::optional<std::int64_t> previous_stamp_ns, const std::string& odom_frame,
                                     const std::string& base_frame);

@@ -239,6 +239,29 @@ TEST_F(BinocularOdometryComponent, APairThatComesTwiceOrLateDoesNotChangeTheNext
   }
 }
 
+TEST_F(BinocularOdometryComponent, ATwistThatIsUnknownHasALargeCovariance) {
+  load();
+  publish_infos();
+  publish_mounting();
+  const auto publish = [this](int index, std::int64_t stamp_ns) {
+    StereoFrame frame = SyntheticScene::frame(index);
+    frame.stamp_ns = stamp_ns;
+    publish_pair(frame);
+  };
+  for (int i = 0; i < 4; ++i) publish(i, 101'000'000'000 + i * SyntheticScene::kInterval_ns);
+  // The clock is set back by 100 s. The first pair after that is lost.
+  for (int i = 4; i < 8; ++i) publish(i, 1'000'000'000 + i * SyntheticScene::kInterval_ns);
+  ASSERT_THAT(odometry_, SizeIs(7));
+  for (std::size_t i = 0; i < odometry_.size(); ++i) {
+    const auto& twist = odometry_[i]->twist();
+    const bool is_unknown = i == 0 || i == 4;
+    EXPECT_EQ(twist.twist().linear().x() == 0.0, is_unknown) << i;
+    for (const std::size_t diagonal : {0, 7, 14, 21, 28, 35}) {
+      EXPECT_EQ(twist.covariance()[diagonal] >= 1e6, is_unknown) << i;
+    }
+  }
+}
+
 TEST_F(BinocularOdometryComponent, RefusesAParameterOutOfItsRange) {
   EXPECT_ANY_THROW(load({{"tracking.front_end", "surf"}}));
   EXPECT_ANY_THROW(load({{"tracking.max_feature", "100"}}));
