@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# For commands that start several programs in sequence: a signal to the command ends all of them.
+# For commands that start several programs: a signal to the command ends all of them, and its end those in the background.
 
 # supervise FUNCTION ARGUMENT...: runs the function in its own process group and forwards SIGINT, SIGTERM and SIGHUP (as SIGTERM) to the group. After
-# a signal, waits until the group has ended. The exit status is that of the function, or 128 + the signal.
+# a signal, and when the function has ended, waits until the group has ended. The exit status is that of the function, or 128 + the signal.
 supervise() {
   local worker='' ended_by='' status=0
   trap 'ended_by=INT; end_group INT "$worker"' INT
@@ -15,8 +15,9 @@ supervise() {
   set +m
   [[ -z $ended_by ]] || end_group TERM "$worker"  # it may have come before there was a group
   wait "$worker" || status=$?
+  [[ -n $ended_by ]] || end_group TERM "$worker"  # a rendering goes on in the background when the build beside it fails
+  wait_for_group "$worker"
   if [[ -n $ended_by ]]; then
-    wait_for_group "$worker"
     note "ended by SIG$ended_by"
     status=$((128 + $(kill -l "$ended_by")))
   fi
