@@ -22,7 +22,7 @@ results_of_bag() {
   bag=$(readlink -f -- "$1")
   out=$bag.results
   if ! { mkdir -p -- "$out" && [[ -w $out ]]; } 2>/dev/null; then
-    out=$(mktemp -d "${TMPDIR:-/tmp}/panvo-results.XXXXXX")
+    out=$(mktemp -d "${TMPDIR:-/tmp}/panvo-results.XXXXXX") || fail "cannot create a folder for the results of '$1' (see above); free space there, or set TMPDIR"
   elif [[ ! -e $out/.panvo_run && -n $(ls -A -- "$out") ]]; then
     fail "'$out' is not from panvo, and the results of the bag belong there; move it away"
   fi
@@ -32,8 +32,19 @@ results_of_bag() {
   case $status in
     0) printf '%s' "$out" ;;
     130 | 143) fail "interrupted" "$status" ;;
-    *) fail "'$1' is not a readable bag, or has no odometry of panvo (see above). $(run_first "$1")" ;;
+    *)
+      has_space "$out" || fail "the disk is full: free space for the results of '$1' in $out"
+      fail "'$1' is not a readable bag, or has no odometry of panvo (see above). $(run_first "$1")"
+      ;;
   esac
+}
+
+# has_space FOLDER: whether a megabyte can be written there, as much as the results of a short bag.
+has_space() {
+  local status=0
+  head -c 1000000 /dev/zero 2>/dev/null >"$1/.panvo_space" || status=1
+  rm -f -- "$1/.panvo_space"
+  return "$status"
 }
 
 # run_of_bag BAG: the same for a bag that must hold odometry.

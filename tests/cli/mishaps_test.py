@@ -67,6 +67,27 @@ class FullDisk(Installed):
         self.assertEqual(done.returncode, 1)
         self.assertIn("demo-1'; choose a folder with --out", done.stderr)
 
+    def test_is_named_where_the_results_of_a_bag_do_not_fit(self):
+        (self.folder / "monday").mkdir()
+        (self.folder / "monday" / "metadata.yaml").touch()
+        write_program(self.programs / "panvo_run", "echo 'cannot write odometry_enhanced.tum' >&2", "exit 1")
+        write_program(self.tools / "head", "exit 1")  # as where nothing can be written
+        done = self.ask("evaluate", "monday", "truth.tum")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the disk is full: free space for the results of 'monday'", done.stderr)
+        self.assertNotIn("not a readable bag", done.stderr)
+        self.assertEqual(list((self.folder / "monday.results").iterdir()), [])
+
+    def test_is_named_where_there_is_no_folder_for_the_results_of_a_bag(self):
+        (self.folder / "monday").mkdir()
+        (self.folder / "monday" / "metadata.yaml").touch()
+        (self.folder / "monday.results").touch()  # a file
+        write_program(self.tools / "mktemp", "exit 1")
+        done = self.ask("evaluate", "monday", "truth.tum")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot create a folder for the results of 'monday'", done.stderr)
+        self.assertNotIn("not a readable bag", done.stderr)
+
 
 class Keystore(Installed):
     """A keystore whose creation was interrupted is completed by the same command."""
@@ -140,21 +161,22 @@ class OptionsWithAnEqualsSign(Installed):
 
 
 class Supervision(unittest.TestCase):
-    def supervise(self, line):
+    def supervise(self, line, function="echo $BASHPID >{pid}; sleep 1000"):
         """Runs a function under supervision that would go on for ever. `line` comes before; {pid}: a file, once it runs."""
         with tempfile.TemporaryDirectory() as folder:
             pid = pathlib.Path(folder, "pid")
             script = "\n".join((f"PANVO_SCRIPTS={ROOT / 'launch_scripts'}", f"source '{ROOT}/launch_scripts/lib/common.sh'",
                                 f"source '{ROOT}/launch_scripts/lib/supervise.sh'", "set -euo pipefail", line.replace("{pid}", f"'{pid}'"),
-                                f"forever() {{ echo $BASHPID >'{pid}'; sleep 1000; }}", "supervise forever"))
+                                f"forever() {{ {function.replace('{pid}', str(pid))}; }}", "supervise forever"))
             try:
                 done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, timeout=60, check=False,
                                       preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
             finally:
-                group = int(pid.read_text(encoding="utf-8")) if pid.exists() else 0
-                lives = group > 0 and pathlib.Path("/proc", str(group)).exists()
+                process = int(pid.read_text(encoding="utf-8")) if pid.exists() else 0
+                stat = pathlib.Path("/proc", str(process), "stat")
+                lives = process > 0 and stat.exists() and ") Z " not in stat.read_text(encoding="utf-8")
                 if lives:
-                    os.killpg(group, signal.SIGKILL)
+                    os.killpg(os.getpgid(process), signal.SIGKILL)
         return done, lives
 
     def test_begins_before_the_program_does(self):
@@ -162,6 +184,11 @@ class Supervision(unittest.TestCase):
         done, lives = self.supervise('set() { builtin set "$@"; [[ $1 != +m ]] || { until [[ -s {pid} ]]; do sleep 0.01; done; kill -INT $$; }; }')
         self.assertEqual(done.returncode, 130, done.stderr)
         self.assertFalse(lives, "the program is left")
+
+    def test_ends_what_runs_in_the_background_of_a_function_that_failed(self):
+        done, lives = self.supervise("", "sleep 1000 >/dev/null 2>&1 & echo $! >{pid}; exit 3")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertFalse(lives, "the program in the background is left")
 
 
 if __name__ == "__main__":
