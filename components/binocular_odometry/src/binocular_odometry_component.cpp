@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "odometry_messages.hpp"
-#include "panvo/binocular_odometry/binocular_odometry.hpp"
+#include "panvo/binocular_odometry/tracking_stage.hpp"
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/stage_timer.hpp"
@@ -11,6 +13,7 @@
 #include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
+#include "vehicle_motion.hpp"
 
 namespace panvo::binocular_odometry {
 
@@ -45,8 +48,9 @@ class BinocularOdometryComponent final : public runtime::Component {
         odometry_(context.output(topics::kOdometryBinocular)),
         quality_(context.output(topics::kOdometryQuality)),
         points_(context.output(topics::kOdometryPoints)),
-        tracked_(context.stage<TrackedFrame>("motion", 2, [this](const TrackedFrame& frame) { on_tracked(frame); })),
-        transforms_(context) {
+        tracked_(context.stage<RigFrame>("motion", 2, [this](const RigFrame& seen) { on_tracked(seen); })),
+        transforms_(context),
+        motion_(parameters_.motion, &timer_) {
     if (parameters_.publish_tf) tf_.emplace(context.output(topics::kTf));
     context.input(topics::kStereoLeftCameraInfo,
                   [this](const auto& info) { on_camera(left_, *info, topics::kStereoLeftCameraInfo); });
@@ -59,11 +63,10 @@ class BinocularOdometryComponent final : public runtime::Component {
  private:
   static constexpr double kStaleCalibration_px = 1.0;  // a good calibration has a few tenths
 
-  /// Both stages, created once the cameras are known.
-  struct Stages {
-    TrackingStage tracking;
-    MotionStage motion;
-    Eigen::Isometry3d base_from_left;  // the rectified left camera
+  /// Created once the cameras are known, and anew when they change.
+  struct Tracking {
+    TrackingStage stage;
+    std::shared_ptr<const StereoRig> rig;
   };
 
   struct Camera {
@@ -75,16 +78,12 @@ class BinocularOdometryComponent final : public runtime::Component {
                  const interfaces::Topic<sensor_msgs::msg::CameraInfo>& topic) {
     const auto read = conversions::to_camera(info);
     if (!read) return context_.log().warn_throttled(topic.name, "{} {}", context_.resolved_name(topic), read.reason());
-    if (stages_ && !(*camera.camera == *read)) {
-      return context_.log().warn_throttled(
-          topic.name, "{} changed while running and is ignored; restart if the camera was replaced",
-          context_.resolved_name(topic));
-    }
+    if (tracking_ && !(*camera.camera == *read)) tracking_.reset();
     camera = {info.header().frame_id(), *read};
   }
 
   void on_images(const sensor_msgs::msg::Image& left, const sensor_msgs::msg::Image& right) {
-    if (!stages_ && !make_stages()) return;
+    if (!tracking_ && !begin_tracking()) return;
     const auto left_grey = conversions::grey(left);
     const auto right_grey = conversions::grey(right);
     if (!left_grey || !right_grey) {
@@ -92,36 +91,37 @@ class BinocularOdometryComponent final : public runtime::Component {
       return context_.log().warn_throttled(topic.name, "{} {}; image pair skipped", context_.resolved_name(topic),
                                            left_grey ? right_grey.reason() : left_grey.reason());
     }
-    tracked_.push(stages_->tracking.track({conversions::stamp_ns(left), *left_grey, *right_grey}));
+    tracked_.push({tracking_->stage.track({conversions::stamp_ns(left), *left_grey, *right_grey}), tracking_->rig});
   }
 
-  void on_tracked(const TrackedFrame& frame) {
+  void on_tracked(const RigFrame& seen) {
+    const TrackedFrame& frame = seen.frame;
     if (frame.row_misalignment_px > kStaleCalibration_px) say_stale(frame.row_misalignment_px);
-    const OdometryEstimate estimate = stages_->motion.estimate(frame);
-    quality_.publish(to_quality(estimate, parameters_.base_frame));
-    if (estimate.quality.reliable != was_reliable_) {
-      was_reliable_ = estimate.quality.reliable;
+    const VehicleEstimate estimate = motion_.estimate(seen);
+    const Quality& quality = estimate.of_left.quality;
+    quality_.publish(to_quality(estimate.of_left, parameters_.base_frame));
+    if (quality.reliable != was_reliable_) {
+      was_reliable_ = quality.reliable;
       if (was_reliable_) {
         context_.log().info_throttled("reliable", "reliable again");
       } else {
-        context_.log().warn_throttled("unreliable", "unreliable: {}", estimate.quality.reason);
+        context_.log().warn_throttled("unreliable", "unreliable: {}", quality.reason);
       }
     }
     // For a late pair only the quality is published, no pose.
     if (frame.is_late) return;
-    const auto odometry =
-        to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame);
+    const auto odometry = to_odometry(estimate, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame);
     if (tf_) tf_->publish(to_transform(odometry));
     odometry_.publish(odometry);
     if (context_.has_reader(topics::kOdometryPoints)) {
       points_.publish(
-          to_point_cloud(stages_->motion.points(), stages_->base_from_left, estimate.stamp_ns, parameters_.odom_frame));
+          to_point_cloud(motion_.points(), motion_.odom_from_start(), frame.stamp_ns, parameters_.odom_frame));
     }
-    last_stamp_ns_ = estimate.stamp_ns;
+    last_stamp_ns_ = frame.stamp_ns;
   }
 
-  /// Creates both stages once both cameras and the pose of the left one are known; otherwise logs what is missing.
-  bool make_stages() {
+  /// Begins once both cameras and the pose of the left one are known; otherwise logs what is missing.
+  bool begin_tracking() {
     if (!left_.camera || !right_.camera) {
       const auto& missing = left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo;
       context_.log().warn_throttled("no calibration", "images received, but no valid calibration on {} yet",
@@ -139,9 +139,15 @@ class BinocularOdometryComponent final : public runtime::Component {
                                                        "publish the pose of the left camera on the vehicle");
     if (!base_from_raw_left) return false;
     const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
-    stages_.emplace(Stages{TrackingStage(*stereo, parameters_, &timer_),
-                           MotionStage(*stereo, parameters_.motion, &timer_),
-                           *base_from_raw_left * raw_from_rectified});
+    auto rig = std::make_shared<const StereoRig>(StereoRig{*stereo, *base_from_raw_left * raw_from_rectified});
+    tracking_.emplace(Tracking{TrackingStage(*stereo, parameters_, &timer_), std::move(rig)});
+    if (was_tracking_) {
+      context_.log().warn_throttled("calibration changed",
+                                    "{} or {} changed while running: tracking restarts with the new calibration",
+                                    context_.resolved_name(topics::kStereoLeftCameraInfo),
+                                    context_.resolved_name(topics::kStereoRightCameraInfo));
+    }
+    was_tracking_ = true;
     return true;
   }
 
@@ -162,13 +168,15 @@ class BinocularOdometryComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::OdometryQuality> quality_;
   runtime::Output<sensor_msgs::msg::PointCloud2> points_;
   std::optional<runtime::Output<tf2_msgs::msg::TFMessage>> tf_;
-  runtime::Stage<TrackedFrame> tracked_;
+  runtime::Stage<RigFrame> tracked_;
 
   conversions::TransformListener transforms_;
   Camera left_, right_;
-  std::optional<Stages> stages_;
+  std::optional<Tracking> tracking_;
+  bool was_tracking_ = false;
 
   // State of the motion stage.
+  VehicleMotion motion_;
   std::optional<std::int64_t> last_stamp_ns_;
   bool was_reliable_ = true;
   bool is_said_stale_ = false;

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "panvo/binocular_odometry/base_motion.hpp"
 #include "panvo/conversions/point_cloud.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
@@ -30,9 +29,9 @@ struct PackedPoint {
 };
 static_assert(sizeof(PackedPoint) == 28);
 
-PackedPoint pack(const ScenePoint& point, const Eigen::Isometry3d& base_from_left) {
+PackedPoint pack(const ScenePoint& point, const Eigen::Isometry3d& odom_from_start) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::Vector3d known = point.in_odom ? base_from_left * *point.in_odom : Eigen::Vector3d::Constant(kUnknown);
+  const Eigen::Vector3d known = point.in_odom ? odom_from_start * *point.in_odom : Eigen::Vector3d::Constant(kUnknown);
   const Eigen::Vector3f at = known.cast<float>();
   const Eigen::Vector2f pixel = point.pixel.cast<float>();
   return {at.x(),
@@ -47,27 +46,22 @@ PackedPoint pack(const ScenePoint& point, const Eigen::Isometry3d& base_from_lef
 
 }  // namespace
 
-nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eigen::Isometry3d& base_from_left,
-                                    std::optional<std::int64_t> previous_stamp_ns, const std::string& odom_frame,
-                                    const std::string& base_frame) {
+nav_msgs::msg::Odometry to_odometry(const VehicleEstimate& estimate, std::optional<std::int64_t> previous_stamp_ns,
+                                    const std::string& odom_frame, const std::string& base_frame) {
+  const std::int64_t stamp_ns = estimate.of_left.stamp_ns;
   nav_msgs::msg::Odometry odometry;
-  odometry.header().stamp(conversions::to_stamp(estimate.stamp_ns));
+  odometry.header().stamp(conversions::to_stamp(stamp_ns));
   odometry.header().frame_id(odom_frame);
   odometry.child_frame_id(base_frame);
+  odometry.pose().pose(conversions::to_pose(estimate.odom_from_base.pose));
+  odometry.pose().covariance(conversions::to_array(estimate.odom_from_base.covariance));
 
-  const UncertainPose odom_from_base =
-      motion_of_base(base_from_left, estimate.odom_from_left, estimate.odom_from_left_covariance);
-  odometry.pose().pose(conversions::to_pose(odom_from_base.pose));
-  odometry.pose().covariance(conversions::to_array(odom_from_base.covariance));
-
-  const double interval_s =
-      previous_stamp_ns ? static_cast<double>(estimate.stamp_ns - *previous_stamp_ns) * 1e-9 : 0.0;
+  const double interval_s = previous_stamp_ns ? static_cast<double>(stamp_ns - *previous_stamp_ns) * 1e-9 : 0.0;
   if (interval_s <= 0.0) {
     odometry.twist().covariance(conversions::to_array(kNotMeasured * Matrix6d::Identity()));
     return odometry;
   }
-  const UncertainPose motion =
-      motion_of_base(base_from_left, estimate.previous_from_current, estimate.previous_from_current_covariance);
+  const UncertainPose& motion = estimate.previous_from_current;
   const Vector6d twist = vision::se3_log(motion.pose) / interval_s;
   // The covariance is in the axes of the previous base_frame, the twist in those of the current one.
   Matrix6d current_from_previous = Matrix6d::Zero();
@@ -101,12 +95,12 @@ tf2_msgs::msg::TFMessage to_transform(const nav_msgs::msg::Odometry& odometry) {
 }
 
 sensor_msgs::msg::PointCloud2 to_point_cloud(const std::vector<ScenePoint>& points,
-                                             const Eigen::Isometry3d& base_from_left, std::int64_t stamp_ns,
+                                             const Eigen::Isometry3d& odom_from_start, std::int64_t stamp_ns,
                                              const std::string& odom_frame) {
   namespace types = sensor_msgs::msg::PointField_Constants;
   std::vector<PackedPoint> packed;
   packed.reserve(points.size());
-  for (const ScenePoint& point : points) packed.push_back(pack(point, base_from_left));
+  for (const ScenePoint& point : points) packed.push_back(pack(point, odom_from_start));
   const bool is_dense = std::ranges::all_of(points, [](const ScenePoint& point) { return point.in_odom.has_value(); });
   return conversions::to_point_cloud(stamp_ns, odom_frame,
                                      {{"x", offsetof(PackedPoint, x), types::FLOAT32},

@@ -35,23 +35,21 @@ class BinocularOdometryComponent : public ::testing::Test {
     harness_.load("panvo_binocular_odometry", "BinocularOdometryComponent", parameters);
   }
 
-  void publish_infos() {
+  void publish_infos(const vision::RectifiedStereo& stereo = SyntheticScene::stereo()) {
     vision::StereoCalibration calibration;
-    calibration.left.pinhole = calibration.right.pinhole = SyntheticScene::stereo().camera;
-    calibration.right_from_left.translation().x() = -SyntheticScene::stereo().baseline_m;
+    calibration.left.pinhole = calibration.right.pinhole = stereo.camera;
+    calibration.right_from_left.translation().x() = -stereo.baseline_m;
     harness_.publish(topics::kStereoLeftCameraInfo,
-                     conversions::to_camera_info(conversions::left_camera(calibration, SyntheticScene::stereo()), 1,
-                                                 "left_optical"));
+                     conversions::to_camera_info(conversions::left_camera(calibration, stereo), 1, "left_optical"));
     harness_.publish(topics::kStereoRightCameraInfo,
-                     conversions::to_camera_info(conversions::right_camera(calibration, SyntheticScene::stereo()), 1,
-                                                 "right_optical"));
+                     conversions::to_camera_info(conversions::right_camera(calibration, stereo), 1, "right_optical"));
   }
 
-  void publish_mounting() {
+  void publish_mounting(const Eigen::Isometry3d& mounting = base_from_left()) {
     geometry_msgs::msg::TransformStamped transform;
     transform.header().frame_id("base_link");
     transform.child_frame_id("left_optical");
-    transform.transform(conversions::to_transform(base_from_left()));
+    transform.transform(conversions::to_transform(mounting));
     tf2_msgs::msg::TFMessage message;
     message.transforms({transform});
     harness_.publish(topics::kTfStatic, message);
@@ -67,6 +65,11 @@ class BinocularOdometryComponent : public ::testing::Test {
     auto message = conversions::make_image(stamp_ns, frame_id, "mono8", pixels.cols, pixels.rows);
     pixels.copyTo(conversions::pixels(*message));
     harness_.publish(topic, std::shared_ptr<const sensor_msgs::msg::Image>(message));
+  }
+
+  std::int64_t lines_with(const std::string& text) const {
+    return std::ranges::count_if(harness_.log(),
+                                 [&](const std::string& line) { return line.find(text) != std::string::npos; });
   }
 
   runtime::ComponentHarness harness_;
@@ -200,10 +203,45 @@ TEST_F(BinocularOdometryComponent, WarnsOnceOfAStaleCalibration) {
   for (int i = 0; i < 12; ++i) {
     publish_pair(SyntheticScene::frame(i, SyntheticScene::world_from_left(i), turned));
   }
-  const auto is_warning = [](const std::string& line) {
-    return line.find("Recalibrate the pair") != std::string::npos;
-  };
-  EXPECT_EQ(std::ranges::count_if(harness_.log(), is_warning), 1);
+  EXPECT_EQ(lines_with("Recalibrate the pair"), 1);
+}
+
+TEST_F(BinocularOdometryComponent, GoesOnWithAnotherCalibrationAndMounting) {
+  load();
+  publish_infos();
+  publish_mounting();
+  constexpr int kChange = 6, kFrames = 14;
+  for (int i = 0; i < kChange; ++i) publish_pair(SyntheticScene::frame(i));
+  // The cameras restart with smaller images, elsewhere on the vehicle. At first, one of them is black.
+  const cv::Rect part(20, 30, 280, 200);
+  vision::RectifiedStereo smaller = SyntheticScene::stereo();
+  smaller.camera = {220.0, 220.0, 159.5 - part.x, 119.5 - part.y, part.width, part.height};
+  Eigen::Isometry3d moved(Eigen::Translation3d(0.1, -0.2, 0.3));
+  moved.linear() = vision::so3_exp({0.08, 0.05, 0.0});
+  publish_infos(smaller);
+  publish_mounting(base_from_left() * moved);
+  for (int i = kChange; i < kFrames; ++i) {
+    StereoFrame frame = SyntheticScene::frame(i, SyntheticScene::world_from_left(i) * moved);
+    if (i == kChange) frame.left.setTo(0);
+    publish_pair({frame.stamp_ns, frame.left(part), frame.right(part)});
+  }
+  ASSERT_THAT(odometry_, SizeIs(kFrames));
+  for (int i = 0; i < kFrames; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    EXPECT_EQ(quality_[at]->reliable(), i != kChange && i != kChange + 1) << i << ": " << quality_[at]->reason();
+    const Eigen::Isometry3d expected =
+        base_from_left() * SyntheticScene::world_from_left(i) * base_from_left().inverse();
+    const auto pose = conversions::to_isometry(odometry_[at]->pose().pose());
+    EXPECT_LT((pose->translation() - expected.translation()).norm(), 0.02) << i;
+    EXPECT_LT(vision::so3_log(pose->linear().transpose() * expected.linear()).norm(), 0.01) << i;
+    if (i == 0) continue;
+    EXPECT_NEAR(odometry_[at]->twist().twist().linear().x(), 1.2, 0.05) << i;
+  }
+  EXPECT_THAT(quality_[kChange + 1]->reason(), HasSubstr("calibration"));
+  // Two frames that were not measured, at an acceleration that nobody knows.
+  EXPECT_GT(odometry_[kChange + 1]->pose().covariance()[0], 10.0 * odometry_[kChange - 1]->pose().covariance()[0]);
+  EXPECT_GT(odometry_[kFrames - 1]->pose().covariance()[0], odometry_[kChange + 1]->pose().covariance()[0]);
+  EXPECT_EQ(lines_with("tracking restarts with the new calibration"), 1);
 }
 
 TEST_F(BinocularOdometryComponent, APairThatComesLateHasItsQualityButNoPose) {
