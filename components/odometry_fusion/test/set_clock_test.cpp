@@ -64,6 +64,17 @@ TEST_P(ClockSetBack, LeavesThePathWhereItIs) {
   }
 }
 
+TEST_P(ClockSetBack, LeavesTheFirstTwistUnknown) {
+  const FusedPose first = begin_again();
+  EXPECT_EQ(first.twist.norm(), 0.0);
+  EXPECT_GE(first.twist_covariance.diagonal().minCoeff(), 1e6);
+  drive();
+  EXPECT_TRUE(fusion_.add(stereo_));
+  const FusedPose second = fusion_.next().value_or(FusedPose{});
+  EXPECT_GT(second.twist[0], 0.0);
+  EXPECT_LT(second.twist_covariance.diagonal().maxCoeff(), 100.0);
+}
+
 TEST_P(ClockSetBack, LeavesThePathWhereItIsIfTheStereoOdometryWasRestartedToo) {
   stereo_.odom_from_base.setIdentity();
   stereo_.covariance.setZero();

@@ -23,7 +23,8 @@ struct FusedPose {
   Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();  ///< of the pose, as vision::pose_error
   vision::Vector6d twist = vision::Vector6d::Zero();  ///< mean since the previous pose, m/s and rad/s, in base_link
-  vision::Matrix6d twist_covariance = vision::Matrix6d::Zero();
+  /// Of the twist. By default that of an unknown one, such as the first, or the first after the clock was set back.
+  vision::Matrix6d twist_covariance = 1e6 * vision::Matrix6d::Identity();
   bool is_reliable = true;  ///< measured by cameras or wheels
   bool is_standing = false;
   bool uses_cameras = false, uses_gyro = false, uses_wheels = false;
