@@ -87,6 +87,32 @@ TEST(Plugin, StaysMappedAsLongAsAMessageOfItsMakingIsHeld) {
   EXPECT_FALSE(is_mapped("panvo_test_relay"));
 }
 
+TEST(Plugin, LeavesTheTypesOfItsMessagesBehind) {
+  ComponentHarness harness;
+  harness.load("panvo_test_relay", "CountComponent");
+  ASSERT_TRUE(harness.container().unload("test_relay"));
+  ASSERT_FALSE(is_mapped("panvo_test_relay"));
+  EXPECT_TRUE(is_mapped("libstd_msgs__panvo"));
+  // The topic has the type that the plugin knew: it reads the bytes of somebody who does not know it.
+  SamplePtr seen;
+  harness.container().observe([](const TopicDescription& topic) { return topic.name == "/count"; },
+                              [&](const TopicDescription&, const SamplePtr& sample) { seen = sample; });
+  std::shared_ptr<UntypedOutput> output;
+  ComponentDescription writer = relay();
+  writer.name = "writer";
+  harness.container().add(writer, [&](Context& context) {
+    output = context.open_output(TopicDescription{"count", "std_msgs/msg/Int16", interfaces::qos::kDefault, nullptr});
+    return std::make_unique<Component>();
+  });
+  output->publish(interfaces::Bytes{0, 1, 0, 0, 7, 0});
+  harness.container().run_until_quiet();
+  output.reset();
+  ASSERT_TRUE(seen);
+  ASSERT_TRUE(seen->type());
+  EXPECT_EQ(seen->type()->name, "std_msgs/msg/Int16");
+  EXPECT_TRUE(seen->message());
+}
+
 TEST(Plugin, ThatIsNoComponentIsRefusedAndSaysWhatIsMissing) {
   ComponentDescription description = relay();
   description.package = "panvo_test_no";
@@ -148,8 +174,10 @@ TEST(Plugin, NamedByAPathIsRefusedWhateverLiesThere) {
 TEST(Plugin, WithoutThatComponentIsRefusedAndSaysWhichItHas) {
   ComponentDescription description = relay();
   description.plugin = "RelyComponent";
-  EXPECT_THAT(why_not(description),
-              HasSubstr("has no component RelyComponent; it has BareComponent, BrokenComponent, RelayComponent"));
+  EXPECT_THAT(
+      why_not(description),
+      HasSubstr(
+          "has no component RelyComponent; it has CountComponent, BareComponent, BrokenComponent, RelayComponent"));
 }
 
 TEST(Plugin, WhoseComponentCannotBeMadeSaysWhyAndIsUnloaded) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
+#include "std_msgs/msg/Int16.h"
 
 namespace {
 
@@ -52,5 +53,15 @@ class BareComponent final : public Component {
 };
 
 PANVO_REGISTER_COMPONENT(BareComponent)
+
+/// One that reads messages whose library the test program does not link.
+class CountComponent final : public Component {
+ public:
+  explicit CountComponent(Context& context) {
+    context.input(panvo::interfaces::Topic<std_msgs::msg::Int16>{"count"}, [](const auto&) {});
+  }
+};
+
+PANVO_REGISTER_COMPONENT(CountComponent)
 
 }  // namespace
