@@ -99,7 +99,6 @@ class StereoPlacesComponent final : public runtime::Component {
 
   void on_camera(Camera& camera, const sensor_msgs::msg::CameraInfo& info,
                  const interfaces::Topic<sensor_msgs::msg::CameraInfo>& topic) {
-    if (places_) return;  // the odometry reports changes
     const auto read = conversions::to_camera(info);
     if (!read) return context_.log().warn_throttled(topic.name, "{} {}", context_.resolved_name(topic), read.reason());
     camera = {info.header().frame_id(), *read};
@@ -192,6 +191,12 @@ class StereoPlacesComponent final : public runtime::Component {
 
   void step(const Pair& pair, const Odometry& odometry) {
     if (!places_ && !make_places()) return;
+    if (!(*left_.camera == used_->first && *right_.camera == used_->second)) {
+      return context_.log().warn_throttled("calibration changed",
+                                           "{} or {} changed while running: no places; restart panvo",
+                                           context_.resolved_name(topics::kStereoLeftCameraInfo),
+                                           context_.resolved_name(topics::kStereoRightCameraInfo));
+    }
     if (!places_->is_due(odometry.stamp_ns, odometry.odom_from_base, odometry.way_m)) return;
     const auto left = conversions::grey(*pair.left);
     const auto right = conversions::grey(*pair.right);
@@ -245,6 +250,7 @@ class StereoPlacesComponent final : public runtime::Component {
     if (!base_from_raw_left) return false;
     const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
     size_ = {stereo->camera.width, stereo->camera.height};
+    used_ = {*left_.camera, *right_.camera};
     places_.emplace(parameters_, *stereo, *base_from_raw_left * raw_from_rectified, keypoints_, &timer_);
     take_early();
     return true;
@@ -264,6 +270,7 @@ class StereoPlacesComponent final : public runtime::Component {
   Camera left_, right_;
   cv::Size size_;
   std::optional<StereoPlaces> places_;
+  std::optional<std::pair<conversions::PairedCamera, conversions::PairedCamera>> used_;  // for places_
   std::vector<landmarks::PanoramicLandmark> early_;
   std::uint32_t last_skipped_id_ = 0;  // the largest one
   vision::StampSequence stamps_;       // of the odometry

@@ -33,15 +33,14 @@ class StereoPlacesComponent : public testing::Test {
  protected:
   void load() { harness_->load("panvo_stereo_places", "StereoPlacesComponent", {{"spill_folder", ""}}); }
 
-  void publish_cameras() {
+  void publish_cameras(const vision::RectifiedStereo& stereo = Street::stereo()) {
     vision::StereoCalibration calibration;
-    calibration.left.pinhole = calibration.right.pinhole = Street::stereo().camera;
-    calibration.right_from_left.translation().x() = -Street::stereo().baseline_m;
+    calibration.left.pinhole = calibration.right.pinhole = stereo.camera;
+    calibration.right_from_left.translation().x() = -stereo.baseline_m;
     harness_->publish(topics::kStereoLeftCameraInfo,
-                      conversions::to_camera_info(conversions::left_camera(calibration, Street::stereo()), 1, "left"));
-    harness_->publish(
-        topics::kStereoRightCameraInfo,
-        conversions::to_camera_info(conversions::right_camera(calibration, Street::stereo()), 1, "right"));
+                      conversions::to_camera_info(conversions::left_camera(calibration, stereo), 1, "left"));
+    harness_->publish(topics::kStereoRightCameraInfo,
+                      conversions::to_camera_info(conversions::right_camera(calibration, stereo), 1, "right"));
     tf2_msgs::msg::TFMessage message;
     message.transforms().push_back(conversions::to_static_transform(0, "base_link", "left", base_from_left()));
     harness_->publish(topics::kTfStatic, message);
@@ -145,6 +144,23 @@ TEST_F(StereoPlacesComponent, GoesOnIfTheClockIsSetBack) {
   EXPECT_EQ(matches.size(), before + 11U) << "as soon as that is certain";
   EXPECT_EQ(conversions::stamp_ns(*matches.back()), stamp_ns);
   EXPECT_GT(landmarks.size(), built);
+}
+
+TEST_F(StereoPlacesComponent, PausesWhileTheCalibrationIsAnother) {
+  load();
+  publish_cameras();
+  drive(0.0, 2.0);
+  const auto before = matches.size();
+  ASSERT_GT(before, 0U);
+  vision::RectifiedStereo other = Street::stereo();
+  other.baseline_m *= 1.5;
+  publish_cameras(other);
+  drive(3.0, 5.0);
+  EXPECT_EQ(matches.size(), before) << "its places would be wrong";
+  EXPECT_TRUE(harness_->log_contains("changed while running: no places; restart panvo"));
+  publish_cameras();
+  drive(6.0, 8.0);
+  EXPECT_GT(matches.size(), before);
 }
 
 TEST_F(StereoPlacesComponent, DropsOdometryThatIsLate) {
