@@ -24,14 +24,15 @@ Eigen::Matrix3d usual_covariance() {
 
 }  // namespace
 
-conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message) {
+conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message,
+                                                   double usual_altitude_m) {
   if (message.status().status() < status::STATUS_FIX) return conversions::Reason{"has no position: status NO_FIX"};
   SatellitePosition position{{message.latitude(), message.longitude(), message.altitude()}, usual_covariance()};
   auto& point = position.point;
   if (point.latitude_deg == 0.0 && point.longitude_deg == 0.0)
     return conversions::Reason{"states latitude and longitude 0: the receiver has no position yet"};
   const bool has_altitude = std::isfinite(point.altitude_m) && std::abs(point.altitude_m) < kMostAltitude_m;
-  if (!has_altitude) point.altitude_m = 0.0;
+  if (!has_altitude) point.altitude_m = usual_altitude_m;
   const Eigen::Matrix3d stated =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(message.position_covariance().data());
   if (message.position_covariance_type() != constants::COVARIANCE_TYPE_UNKNOWN) {

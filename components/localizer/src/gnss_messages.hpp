@@ -18,9 +18,9 @@ struct SatellitePosition {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 
-/// Of a message that satisfies its rules. Variances that are unknown or 0: of a receiver without corrections. The reason
-/// says why there is no position.
-conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message);
+/// Of a message that satisfies its rules. Variances that are unknown or 0: of a receiver without corrections.
+/// `usual_altitude_m`: assumed of a message without altitude. The reason says why there is no position.
+conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message, double usual_altitude_m);
 
 /// The vehicle's position, if the frame of the satellites touches the earth at `plane`.
 sensor_msgs::msg::NavSatFix to_fix(const PoseInMap& enu_from_base, const vision::TangentPlane& plane,

@@ -45,12 +45,13 @@ Satellites::Satellites(runtime::Context& context, const ComponentParameters& par
 
 void Satellites::on_fix(const sensor_msgs::msg::NavSatFix& message) {
   if (!parameters_.use_gnss || base_frame_.empty()) return;
-  const auto position = to_position(message);
+  const auto position = to_position(message, altitude_m_);
   if (!position) return refuse(position.reason());
   const auto base_from_antenna =
       antenna_.find(context_.resolved_name(topics::kGnssFix), base_frame_, message.header().frame_id(), transforms_,
                     context_.log(), "the antenna is at " + base_frame_);
   if (!base_from_antenna) return refuse(base_from_antenna.reason());
+  altitude_m_ = position->point.altitude_m;
   if (!plane_) plane_.emplace(position->point);
   const double far_m = plane_->enu(position->point).norm();
   if (far_m < kFarthest_m) {
@@ -137,6 +138,7 @@ void Satellites::read_georeference() {
       return context_.log().warn("{}: ignored: of frame '{}'", file, known->map_frame);
     }
     plane_.emplace(known->origin);
+    altitude_m_ = known->origin.altitude_m;
     is_origin_known_ = true;
     localizer_.set_known_enu(known->map_from_enu);
     context_.log().info("{}: in the stored map, positions by satellites show where the vehicle is", file);

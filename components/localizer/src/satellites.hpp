@@ -49,7 +49,10 @@ class Satellites {
   runtime::Output<tf2_msgs::msg::TFMessage> tf_;
   std::optional<vision::TangentPlane> plane_;  // at the first position
   std::optional<vision::TangentPlane> far_;    // at the last position, if that is too far from the first
-  bool is_origin_known_ = false;               // the plane is that of an earlier journey
+  // The last one that was stated. East and north of a position without altitude depend on it: a hundred metres of
+  // altitude are 8 cm at 5 km from the plane's origin.
+  double altitude_m_ = 0.0;
+  bool is_origin_known_ = false;  // the plane is that of an earlier journey
   std::deque<GnssFix> waiting_;
   std::optional<std::int64_t> kept_ns_;
   conversions::SensorMount antenna_;

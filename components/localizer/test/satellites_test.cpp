@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -213,6 +214,34 @@ TEST_F(Satellites, AreNotHeldUpByOneOfATimeToCome) {
   harness_.publish(topics::kGnssFix, early);
   drive(1, 200);
   EXPECT_TRUE(harness_.log_contains("/gnss/fix: agrees with the odometry; used from now on"));
+}
+
+/// The map's origin on earth is that of an earlier journey, 50 km away.
+class SatellitesFarFromTheirOrigin : public Satellites {
+ protected:
+  void SetUp() override {
+    const auto origin = plane_.geodetic({0.0, 50e3, 0.0});
+    write_georeference(file_, {"map",
+                               {origin.latitude_deg, origin.longitude_deg, 520.0},
+                               {Eigen::Isometry3d::Identity(), vision::Matrix6d::Identity()}});
+    Satellites::SetUp();
+  }
+};
+
+TEST_F(SatellitesFarFromTheirOrigin, MayLackTheirAltitudeNowAndThen) {
+  publish_antenna();
+  for (int i = 0; i < 200; ++i) {
+    publish_odometry(i);
+    auto seen = fix(i);
+    if (i % 2 == 1) seen.altitude(std::numeric_limits<double>::quiet_NaN());
+    harness_.publish(topics::kGnssFix, seen);
+  }
+  ASSERT_THAT(enhanced_, Not(IsEmpty()));
+  for (const auto& one : enhanced_) {
+    const auto step = static_cast<int>((conversions::stamp_ns(*one) - stamp(0)) / (stamp(1) - stamp(0)));
+    const Eigen::Vector3d here_m = plane_.enu({one->latitude(), one->longitude(), one->altitude()});
+    EXPECT_LT((here_m - in_enu(pose(step).translation())).head<2>().norm(), 0.1) << step;
+  }
 }
 
 TEST_F(Satellites, AreNotUsedIfTheirPathDiffers) {
