@@ -62,6 +62,12 @@ void GnssTrial::add(const Sample& sample, double least_m) {
   samples_.erase(samples_.begin() + static_cast<std::ptrdiff_t>(least));
 }
 
+void GnssTrial::refresh(const OdometryBuffer& chain) {
+  for (auto& sample : samples_) {
+    if (const auto at = chain.at(sample.fix.stamp_ns)) sample.at = *at;
+  }
+}
+
 std::optional<GnssTrial::Result> GnssTrial::result(double least_m) const {
   if (samples_.size() < kLeastSamples) return std::nullopt;
   const Eigen::Vector3d first = antenna_in_odom(samples_.front());

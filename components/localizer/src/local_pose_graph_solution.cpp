@@ -8,6 +8,7 @@
 
 #include "panvo/localizer/local_pose_graph.hpp"
 #include "panvo/localizer/pose_graph.hpp"
+#include "panvo/vision/seconds.hpp"
 
 /// The graph as a least-squares problem, and what satellites contribute to it.
 namespace panvo::localizer {
@@ -102,7 +103,8 @@ std::vector<std::size_t> LocalPoseGraph::wanted_covariances(const std::vector<Ei
   return wanted;
 }
 
-/// Errors of satellites persist for a time: fixes within it count as one. Each is weighted by its share of the time.
+/// Errors of satellites persist for a time: fixes within it count as one, as all do that span less. Each is weighted by
+/// its share of the time.
 void LocalPoseGraph::add_fixes(PoseGraph& graph, const std::vector<std::size_t>& order) const {
   const std::size_t enu = graph.poses.size();
   graph.poses.push_back(enu_->map_from_enu);
@@ -121,10 +123,12 @@ void LocalPoseGraph::add_fixes(PoseGraph& graph, const std::vector<std::size_t>&
   std::copy_if(order.begin(), order.end(), std::back_inserter(fixes),
                [&](std::size_t i) { return nodes_[i].fix.has_value(); });
   const auto stamp_ns = [&](std::size_t k) { return nodes_[fixes[k]].at.pose.stamp_ns; };
+  const double span_s = fixes.empty() ? 0.0 : vision::seconds(stamp_ns(0), stamp_ns(fixes.size() - 1));
+  const double one_s = std::min(fix_parameters_.correlation_s, span_s);
   for (std::size_t k = 0; k < fixes.size(); ++k) {
     const std::int64_t since_ns = stamp_ns(k == 0 ? 0 : k - 1), until_ns = stamp_ns(std::min(k + 1, fixes.size() - 1));
     const double share_s = 0.5e-9 * static_cast<double>(until_ns - since_ns);
-    const double alike = share_s > 0.0 ? fix_parameters_.correlation_s / share_s : 1.0;  // the only one has no time
+    const double alike = share_s > 0.0 ? one_s / share_s : 1.0;  // the only one has no time
     const auto& fix = *nodes_[fixes[k]].fix;
     graph.fixes.push_back({enu, fixes[k], fix.antenna_in_base_m, fix.velocity_in_base_m_s, fix.enu_m,
                            fix.covariance * std::max(1.0, alike)});

@@ -37,6 +37,7 @@ FixOutcome Localizer::add(const GnssFix& received) {
 
 /// Begins the use of fixes if those on trial have the shape of the odometry's path.
 FixOutcome Localizer::try_fixes(const GnssTrial::Sample& sample, double least_m) {
+  fix_trial_.refresh(chain_);
   fix_trial_.add(sample, least_m);
   const auto result = fix_trial_.result(least_m);
   if (!result) return {FixUse::kOnTrial, {}};
@@ -53,9 +54,8 @@ FixOutcome Localizer::try_fixes(const GnssTrial::Sample& sample, double least_m)
   } else {
     corrected.set_enu(map_from_odom * result->odom_from_enu, std::nullopt);
   }
-  for (const auto& one : fix_trial_.samples()) {
-    if (const auto at = chain_.at(one.fix.stamp_ns)) corrected.add_fix(one.fix, *at);
-  }
+  // Also those of before the stored odometry: a slow vehicle needs minutes for the path of a trial.
+  for (const auto& one : fix_trial_.samples()) corrected.add_fix(one.fix, one.at);
   if (!corrected.solve()) return {FixUse::kOnTrial, "the pose graph could not be solved"};
   graph_ = std::move(corrected);
   fix_trial_.clear();

@@ -287,6 +287,42 @@ TEST_P(SpacedSatellites, AreTriedAnewWhenTheirFrameMoves) {
 
 INSTANTIATE_TEST_SUITE_P(Spacings, SpacedSatellites, ::testing::Values(1.0, 2.0, 4.0, 10.0));
 
+TEST(LocalizerWithSatellites, ShowTheDirectionThoughTheirTrialIsLongerThanTheStoredOdometry) {
+  Parameters slow = parameters();
+  slow.history_s = 2.0;  // 10 m at 5 m/s, as 120 s are at 0.08 m/s
+  GnssDrive drive(2, 1.0, 0.3);
+  Localizer localizer(slow);
+  localizer.add(drive.now());
+  while (!localizer.has_enu() && drive.stamp_ns() < 100'000'000'000) {
+    localizer.add(drive.step());
+    localizer.add(drive.fix());
+  }
+  ASSERT_TRUE(localizer.has_enu());
+  const auto here = localizer.latest_in_enu();
+  EXPECT_LT(std::sqrt(here.covariance(5, 5)), 0.1);
+  const vision::Vector6d error = vision::pose_error(here.map_from_base, drive.true_enu_from_base());
+  EXPECT_LT(error.dot(here.covariance.ldlt().solve(error)), 22.5);  // 99.9 % of six degrees of freedom
+}
+
+TEST(LocalizerWithSatellites, CountAsOneOverAShortTime) {
+  constexpr double kSigma_m = 2.0;
+  LocalPoseGraph graph(0.01, 0.001, 0.0, {});
+  GnssDrive drive(1, 1.0, kSigma_m);
+  graph.start({drive.now(), 0.0});
+  graph.set_enu(drive.true_enu_from_base().inverse(), std::nullopt);
+  OdometryPose standing = drive.now();
+  for (int i = 0; i <= 10; ++i) {  // a sixth of the time for which their errors persist
+    standing.stamp_ns = i * 1'000'000'000LL;
+    GnssFix fix = drive.fix();
+    fix.stamp_ns = standing.stamp_ns;
+    fix.antenna_in_base_m.setZero();
+    graph.add_fix(fix, {standing, 0.0});
+  }
+  ASSERT_TRUE(graph.solve());
+  // The steps of the odometry between them add a little.
+  EXPECT_NEAR(graph.in_enu({standing, 0.0}).covariance(0, 0), kSigma_m * kSigma_m, 0.1);
+}
+
 TEST(LocalizerWithSatellites, CountASingleFixAsOne) {
   constexpr double kSigma_m = 2.0;
   LocalPoseGraph graph(0.01, 0.001, 0.0, {});

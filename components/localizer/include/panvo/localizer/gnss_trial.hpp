@@ -29,6 +29,8 @@ class GnssTrial {
   void add(const Sample& sample, double least_m);
   /// nullopt while the path is too short to tell: shorter than `least_m`, or not ten standard deviations of a fix wide.
   std::optional<Result> result(double least_m) const;
+  /// Replaces the odometry of the samples by the corrected one, as far back as that is stored.
+  void refresh(const OdometryBuffer& chain);
   const std::deque<Sample>& samples() const noexcept { return samples_; }
   void clear() { samples_.clear(); }
 
