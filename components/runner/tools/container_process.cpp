@@ -89,6 +89,7 @@ ContainerOptions make_container_options(const RunOptions& options, const Contain
   result.limits = {.max_message_bytes = static_cast<std::size_t>(description.max_message_mb * 1e6),
                    .max_topic_rate_hz = description.max_topic_rate_hz};
   result.again = options.again;
+  result.run_id = options.run_id;
   result.is_part_of_system = options.link_in || !options.container.empty();
   if (options.local || options.replay) return result;
   result.dds = options.dds;

@@ -63,6 +63,7 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   if (options.local) words.push_back("--local");
   if (options.view) words.push_back("--view");
   if (child.again) words.push_back("--again");
+  add("--run-id", options.run_id);
   if (options.verbose) words.push_back("--verbose");
   add("--container", child.name);
   for (const auto& topic : options.awaited) add("--await", topic);
@@ -234,6 +235,7 @@ void supervise(const RunOptions& options, std::vector<Child>& children, const st
 ExitStatus launch(const RunOptions& given, const runtime::SystemDescription& system) {
   RunOptions options = given;
   options.local = given.local && system.containers.size() == 1;  // several containers need DDS
+  options.run_id = runtime::new_run_id();
   std::atomic<bool> stop = false;
   std::atomic<int> signal = 0;
   std::vector<Child> children;

@@ -146,6 +146,7 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
   app.add_option("--link-in", options.link_in)->group("");
   app.add_option("--link-out", options.link_out)->group("");
   app.add_flag("--again", options.again)->group("");
+  app.add_option("--run-id", options.run_id)->group("");
   app.footer(
       "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and "
       "ROS_DISCOVERY_SERVER are honoured. Exit status: 0 success, 1 "

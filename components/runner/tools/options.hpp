@@ -47,6 +47,7 @@ struct RunOptions {
   std::vector<std::string> awaited;      // topics that must have peers before the start
   std::optional<int> link_in, link_out;  // pipes to the launcher
   bool again = false;                    // replaces a process that crashed
+  std::string run_id;                    // of the launcher's run; empty: a run of its own
 
   /// Parses a command line. Returns an exit status if there is nothing to run (`--help`, or an error, which is
   /// printed).

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/runtime/container.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <random>
 #include <thread>
 
 #include "container_implementation.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime {
+
+std::string new_run_id() {
+  std::random_device random;
+  const auto first = random(), second = random(), third = random(), fourth = random();
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", first, second, third, fourth);
+}
 
 Container::Container(ContainerOptions options)
     : implementation_(std::make_unique<Implementation>(std::move(options))) {}

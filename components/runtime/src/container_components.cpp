@@ -57,6 +57,7 @@ Container::Implementation::Implementation(ContainerOptions options)
             .seed = options_.seed,
             .progressed = [this] { progressed(); },
             .again = options_.again,
+            .run_id = options_.run_id.empty() && !options_.replay ? new_run_id() : options_.run_id,
             .files_below = options_.files_below,
             .failed = [this](const ComponentDescription& description) { component_failed(description); },
             .pacer = Pacer(options_.rate)},

@@ -156,6 +156,10 @@ std::string Context::resolved_name(std::string_view topic) const {
 }
 
 bool Context::is_again() const noexcept { return state_->host.again || state_->restarts > 0; }
+std::string Context::run_id() const {
+  if (state_->host.run_id.empty()) return "";
+  return state_->host.run_id + full_name(state_->description.name_space, state_->description.name);
+}
 std::int64_t Context::passing_ns() const { return state_->host.time.now_ns(); }
 std::int64_t Context::now_ns() const noexcept { return current_stamp_ns(); }
 

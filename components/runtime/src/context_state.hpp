@@ -33,6 +33,7 @@ struct Host {
   std::uint64_t seed;
   std::function<void()> progressed;
   bool again = false;  // replaces a process that crashed
+  const std::string run_id{};
   std::atomic<std::int64_t> in_flight = 0;
   std::filesystem::path files_below{};  // folder for files named by service requests; empty: none
   std::function<void(const ComponentDescription&)> failed = [](const ComponentDescription&) {};

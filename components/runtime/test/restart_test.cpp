@@ -9,6 +9,8 @@
 #include <future>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/testing.hpp"
@@ -41,6 +43,7 @@ struct FragileRecord {
   int made = 0, handled = 0;
   bool fails_again = false, cannot_be_made_anew = false;
   bool is_again = false;  // is_again() of the last instance
+  std::set<std::string> run_ids;
   std::function<void(int)> on_made = [](int) {};
 
   bool reaches(const std::function<bool(const FragileRecord&)>& wanted) {
@@ -57,6 +60,7 @@ class Fragile final : public Component {
     is_to_fail_ = ++record.made == 1 || record.fails_again;
     record.on_made(record.made);
     record.is_again = context.is_again();
+    record.run_ids.insert(context.run_id());
     record.changed.notify_all();
     if (record.made > 1 && record.cannot_be_made_anew) throw ConfigError("the camera is gone");
     context.input(kTask, [this](const std::shared_ptr<const Image>&) {
@@ -126,6 +130,8 @@ TEST_F(Restart, AComponentThatThrowsIsMadeAnewAndGetsWhatTopicsHold) {
   ASSERT_TRUE(record.reaches([](const FragileRecord& now) { return now.handled == 1; }));
   EXPECT_EQ(record.made, 2);
   EXPECT_TRUE(record.is_again);
+  ASSERT_EQ(record.run_ids.size(), 1U) << "the same before and after";
+  EXPECT_FALSE(record.run_ids.contains(""));
   EXPECT_THAT(end(), IsEmpty());
   EXPECT_TRUE(is_logged("restarting in 0.1 s"));
 }
@@ -213,6 +219,30 @@ TEST_F(Restart, AContainerStopsWhereItsComponentSaysSo) {
   EXPECT_THAT(end(), ElementsAre("fragile stopped by an error, see the log"));
   EXPECT_EQ(record.made, 1);
   EXPECT_FALSE(record.is_again);
+}
+
+std::string run_id_in(const ContainerOptions& options, const std::string& name = "one",
+                      const std::string& name_space = "/") {
+  std::string run_id;
+  Container container(options);
+  ComponentDescription description;
+  description.name = name;
+  description.name_space = name_space;
+  container.add(description, [&](Context& context) {
+    run_id = context.run_id();
+    return std::make_unique<Component>();
+  });
+  return run_id;
+}
+
+TEST(RunId, IsThatOfOneComponentInOneRun) {
+  const auto mine = run_id_in({.run_id = "7"});
+  EXPECT_EQ(run_id_in({.again = true, .run_id = "7"}), mine);
+  EXPECT_NE(run_id_in({.run_id = "8"}), mine);
+  EXPECT_NE(run_id_in({.run_id = "7"}, "other"), mine);
+  EXPECT_NE(run_id_in({.run_id = "7"}, "one", "/robot"), mine);
+  EXPECT_NE(run_id_in({}), run_id_in({})) << "two runs";
+  EXPECT_EQ(run_id_in({.replay = true}), "");
 }
 
 TEST(RestartInReplay, IsNot) {

@@ -28,6 +28,8 @@ struct ContainerOptions {
   /// Clock without a source, ns. Absent: the monotonic clock (live), or the stamps of the handled messages (replay).
   std::function<std::int64_t()> clock{};
   bool again = false;  ///< this process replaces one that crashed
+  /// The same for all processes of a run, and for those that replace them. Empty: a new one (live), or none (replay).
+  std::string run_id{};
   /// Name and namespace of the container's ROS 2 node; must differ from those of all components.
   std::string name = "container";
   std::string name_space = "/";
@@ -37,6 +39,9 @@ struct ContainerOptions {
   ServiceAccess services = ServiceAccess::kByHost;
   std::filesystem::path files_below{};  ///< folder for files named by service requests; empty: none allowed
 };
+
+/// A random one. Not for a replay, which gives the same results each time.
+std::string new_run_id();
 
 /// Message counts of one input of a component.
 struct QueueCounters {

@@ -175,6 +175,10 @@ class Context {
   /// Whether the component was restarted after a crash of itself or its process: its previous state is lost.
   bool is_again() const noexcept;
 
+  /// Tells this component in this run from all others: after a restart of itself or its process, it is the same. Empty in
+  /// a replay, where nothing is restarted.
+  std::string run_id() const;
+
   /// Call before reading a file of an earlier run. If the last three attempts to read it made the component or process
   /// fail, the file is first renamed, so the component does not find it. No effect in replay.
   void about_to_read(const std::filesystem::path& file);
