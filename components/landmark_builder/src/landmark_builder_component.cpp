@@ -97,6 +97,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
     landmark.stamp_ns = conversions::stamp_ns(message);
     landmark.map_from_base = *pose;
     landmark.covariance = conversions::to_matrix(message.pose().covariance());
+    if (map_.map().is_other(landmark)) return;  // the other nodes refuse it, too
     map_.map().add(landmark);
   }
 

@@ -66,6 +66,16 @@ class LandmarkBuilderComponent : public ::testing::Test {
     }
   }
 
+  /// Says that the vehicle's odometry began so far away, to the left.
+  void move_map(double by_m) {
+    const auto begin = PaintedTown::at(-40.0, -1.5, 0.0);
+    publish_odometry(80'000'000'000, begin);
+    nav_msgs::msg::Odometry enhanced;
+    enhanced.header().stamp(conversions::to_stamp(80'000'000'000));
+    enhanced.pose().pose(conversions::to_pose(Eigen::Translation3d(0.0, by_m, 0.0) * begin));
+    harness_.publish(topics::kOdometryEnhanced, enhanced);
+  }
+
   const PaintedTown town_ = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
   double ahead_s_ = 0.0;  // all clocks
   runtime::ComponentHarness harness_;
@@ -265,6 +275,49 @@ TEST_F(LandmarkBuilderComponent, TakesNoticeOfLandmarksThatWereMoved) {
   harness_.publish(topics::kLandmarks, second);  // older than its pose, although it comes later
   drive();
   EXPECT_THAT(landmarks_, SizeIs(2));  // only the published ones
+}
+
+TEST_F(LandmarkBuilderComponent, NumbersOnAfterARestart) {
+  load();
+  publish_mounting();
+  drive();
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  ASSERT_TRUE(harness_.container().unload("landmark_builder"));
+  load();  // hears of the landmark that its predecessor built, as the topic is latched
+  move_map(100.0);
+  drive();
+  ASSERT_THAT(landmarks_, SizeIs(2));
+  EXPECT_EQ(landmarks_[1]->id(), 2U);
+}
+
+TEST_F(LandmarkBuilderComponent, NumbersOnAfterARestartOfItsProcess) {
+  panvo_msgs::msg::LandmarkPoses poses;  // the localizer's, which has gone on
+  poses.ids({1, 2, 7});
+  poses.poses().resize(3);
+  harness_.publish(topics::kLandmarkPoses, poses);
+  load();
+  publish_mounting();
+  move_map(100.0);
+  drive();
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  EXPECT_EQ(landmarks_[0]->id(), 8U);
+}
+
+/// Otherwise it would make none at the crossing.
+TEST_F(LandmarkBuilderComponent, TakesNoLandmarkForAnotherOfTheSameId) {
+  load();
+  publish_mounting();
+  panvo_msgs::msg::PanoramicLandmark first, other;
+  first.id(12);
+  first.histogram({1.0F});
+  first.pose().pose().position().x(500.0);
+  other = first;
+  other.header().stamp(conversions::to_stamp(5));
+  other.pose().pose().position().x(3.0);
+  harness_.publish(topics::kLandmarks, first);
+  harness_.publish(topics::kLandmarks, other);
+  drive();
+  EXPECT_THAT(landmarks_, SizeIs(3));  // with the two published ones
 }
 
 TEST_F(LandmarkBuilderComponent, RefusesAParameterOutOfItsRange) {

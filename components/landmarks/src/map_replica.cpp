@@ -6,6 +6,11 @@
 
 namespace panvo::landmarks {
 
+bool MapReplica::is_other(const PanoramicLandmark& landmark) const {
+  const auto known = places_.find(landmark.id);
+  return known != places_.end() && known->second.stamp_ns && *known->second.stamp_ns != landmark.stamp_ns;
+}
+
 bool MapReplica::add(PanoramicLandmark& landmark) {
   const bool is_new = !owned_.contains(landmark.id) && set({landmark.id, landmark.map_from_base, landmark.covariance});
   auto& place = places_.at(landmark.id);

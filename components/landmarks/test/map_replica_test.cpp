@@ -88,6 +88,17 @@ TEST(MapReplica, ForgetsThePoseOfALandmarkThatNeverCameOnceTheOwnerDoes) {
   EXPECT_FALSE(map.places().contains(2));
 }
 
+TEST(MapReplica, TellsALandmarkFromAnotherOneOfItsIdByThePanorama) {
+  MapReplica map;
+  map.move({pose_at(1, 7.0), pose_at(2, 8.0)});
+  auto landmark = landmark_at(1, 5.0, 100);
+  EXPECT_FALSE(map.is_other(landmark)) << "only its pose is known";
+  map.add(landmark);
+  EXPECT_FALSE(map.is_other(landmark_at(1, 9.0, 100)));
+  EXPECT_TRUE(map.is_other(landmark_at(1, 5.0, 101)));
+  EXPECT_FALSE(map.is_other(landmark_at(3, 5.0, 101)));
+}
+
 TEST(MapReplica, NumbersOnFromAllThatAreThere) {
   MapReplica map;
   EXPECT_EQ(map.next_id(), 1U);

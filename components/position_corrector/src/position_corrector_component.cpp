@@ -110,6 +110,10 @@ class PositionCorrectorComponent final : public runtime::Component {
     const auto read = landmarks::to_landmark(message, settings_);
     if (!read) return context_.log().warn_throttled(read.reason(), "a landmark {}; skipped", read.reason());
     auto landmark = *read;
+    if (map_.map().is_other(landmark)) {
+      return context_.log().warn_throttled(fmt::format("landmark {}", landmark.id),
+                                           "landmark {}: its id is that of another one; skipped", landmark.id);
+    }
     map_.map().add(landmark);
     // a landmark that is received again may have an updated pose
     if (library_.set_pose(landmark.id, landmark.map_from_base, landmark.covariance)) return;

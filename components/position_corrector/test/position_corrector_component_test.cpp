@@ -240,6 +240,18 @@ TEST_F(CorrectorOnTopics, MovesALandmarkThatComesAfterItsPose) {
   EXPECT_EQ(matches.back()->candidates(), 1U);
 }
 
+TEST_F(CorrectorOnTopics, TakesNoLandmarkForAnotherOfTheSameId) {
+  publish_landmark(2, 2);
+  auto other = landmark_of(place(3), describer, Eigen::Vector3d(500.0, 0.0, 0.0));  // of a builder that was restarted
+  other.id = 2;
+  other.stamp_ns += 1'000'000'000;
+  harness.publish(topics::kLandmarks, to_message(other, landmarks::landmark_settings({}, {}, 1), "map"));
+  EXPECT_TRUE(harness.log_contains("landmark 2: its id is that of another one; skipped"));
+  publish_odometry(200.0, 1.0);
+  publish_panorama(place(2));
+  EXPECT_EQ(matches.back()->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED) << matches.back()->reason();
+}
+
 TEST_F(CorrectorOnTopics, LeavesLandmarksWhereTheyAreWhenTheirPosesAreMalformed) {
   publish_landmark(2, 2);
   panvo_msgs::msg::LandmarkPoses message;

@@ -21,6 +21,9 @@ class MapReplica {
     std::optional<std::int64_t> stamp_ns;  ///< nullopt: only the pose has arrived
   };
 
+  /// Whether a landmark has the id of another one, built from another panorama: who numbers them may have been restarted
+  /// and not know all ids.
+  bool is_other(const PanoramicLandmark& landmark) const;
   /// A landmark arrives, perhaps again; it gets the owner's pose if there is one. Returns whether its pose is new here.
   bool add(PanoramicLandmark& landmark);
   /// All poses of the owner arrive. Returns those that are new here.
