@@ -115,7 +115,10 @@ std::uint32_t LandmarkStore::add(const PanoramicLandmark& landmark, IfTaken if_t
     throw std::invalid_argument(numbered(landmark.id) + *problem);
   const auto row = to_stored(landmark);
   std::uint32_t id = 0;
-  backend_->transact([&] { id = add_row(*backend_, name_, row, if_taken, use); });
+  backend_->transact([&] {
+    id = add_row(*backend_, name_, row, if_taken, use);
+    if (!run_.empty() && landmark.id != 0) backend_->put_run_id(run_, landmark.id, id);
+  });
   return id;
 }
 
@@ -161,6 +164,12 @@ void LandmarkStore::count(std::span<const LandmarkPass> passes) {
 std::map<std::uint32_t, LandmarkUse> LandmarkStore::uses() const { return backend_->uses(); }
 
 std::uint32_t LandmarkStore::next_session() const { return backend_->next_session(); }
+
+std::optional<StoredRun> LandmarkStore::find_run(const std::string& id) const { return backend_->find_run(id); }
+
+void LandmarkStore::begin_run(const StoredRun& run) {
+  backend_->transact([&] { run_ = backend_->put_run(run) ? run.id : ""; });
+}
 
 std::uint32_t LandmarkStore::append(const LandmarkStore& other) {
   require(other.settings());

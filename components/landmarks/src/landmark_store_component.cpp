@@ -77,14 +77,15 @@ class LandmarkStoreComponent final : public runtime::Component {
       context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_odometry(*message); });
     }
     patience_.answer_s = parameters_.answer_s;
+    if (!parameters_.read_only) run_.id = context.run_id();
     if (!location_.is_server()) context.about_to_read(parameters_.file);
     try {
       std::unique_ptr<LandmarkStore> store;
       if (parameters_.read_only || LandmarkStore::exists(location_, patience_)) store = open();
       if (parameters_.read_only) return;
       const auto most_waiting = static_cast<std::size_t>(parameters_.waiting);
-      writer_ = location_.is_server() ? write_to_server(location_, settings_, patience_, most_waiting)
-                                      : write_to_file(location_, std::move(store), most_waiting);
+      writer_ = location_.is_server() ? write_to_server(location_, settings_, patience_, run_, most_waiting)
+                                      : write_to_file(location_, std::move(store), run_, most_waiting);
     } catch (const StoreError& error) {
       throw runtime::ConfigError(error.what());
     }
@@ -107,35 +108,60 @@ class LandmarkStoreComponent final : public runtime::Component {
     settings_ = store->settings();
     if (!parameters_.read_only) {
       store = std::make_unique<LandmarkStore>(location_, *settings_, patience_);
-      uses_ = store->uses();
-      forget(*store);
-      session_ = store->next_session();
+      begin(*store);
     }
     store->read_one_state([&] { publish(*store); });
-    context_.log().info("{}: {} landmarks loaded", store->name(), stored_.size());
     return store;
   }
 
+  /// After a restart, the run goes on: other components still have its landmarks by the ids that they had before.
+  void begin(LandmarkStore& store) {
+    if (const auto before = run_.id.empty() ? std::nullopt : store.find_run(run_.id)) {
+      run_ = *before;
+      for (const auto& [in_run, in_store] : run_.ids) stored_.insert(in_run);
+      is_resumed_ = true;
+      return;
+    }
+    forget(store);
+    run_.session = store.next_session();
+    run_.last_id = store.last_id();
+  }
+
   void publish(const LandmarkStore& store) {
+    const auto uses = parameters_.read_only ? std::map<std::uint32_t, LandmarkUse>() : store.uses();
+    std::map<std::uint32_t, std::uint32_t> own;  // ids in this run of those that it added
+    for (const auto& [in_run, in_store] : run_.ids) own.emplace(in_store, in_run);
+    std::size_t loaded = 0;
     const auto tell = [&](const std::string& problem) {
       context_.log().warn("{}: {}: skipped. Remedy: run panvo landmarks info --check; restore a copy{}", store.name(),
                           problem, location_.is_server() ? "" : " of the file");
     };
     const auto publish_one = [&](PanoramicLandmark landmark) {
+      const auto stored_id = landmark.id;
+      const auto found = own.find(stored_id);
+      const bool is_own = found != own.end();
+      if (is_own) landmark.id = found->second;
+      // Another robot added it since the run began, which may have its id for a landmark of its own.
+      if (!is_own && !parameters_.read_only && (stored_id > run_.last_id || run_.ids.contains(stored_id))) return;
       try {
-        landmark.keypoints = store.keypoints(landmark.id);  // the thumbnail, for display only, is not published
+        landmark.keypoints = store.keypoints(stored_id);  // the thumbnail, for display only, is not published
       } catch (const StoreUnavailable&) {
         throw;
       } catch (const StoreError& error) {
         return tell(error.what());
       }
       map_->map().add(landmark);
+      if (const auto use = uses.find(stored_id); use != uses.end()) uses_[landmark.id] = use->second;
       remember(landmark.id);
-      earlier_[landmark.id] = uses_[landmark.id];
+      if (!is_own) earlier_[landmark.id] = uses_[landmark.id];
       // The topic is latched, so subscribers may join later.
       output_.publish(to_message(landmark, store.settings(), parameters_.map_frame));
+      ++loaded;
     };
     store.for_each(publish_one, tell);
+    if (is_resumed_) passes_.leave_out_current();
+    context_.log().info("{}: {} landmarks loaded{}", store.name(), loaded,
+                        is_resumed_ ? "; this run goes on with those that it added before the restart" : "");
   }
 
   /// Places of a stereo camera are recognised at like headings only, so that a pass does not tell that one has changed.
@@ -143,12 +169,11 @@ class LandmarkStoreComponent final : public runtime::Component {
 
   void forget(LandmarkStore& store) {
     std::vector<std::uint32_t> outdated;
-    for (const auto& [id, use] : uses_) {
+    for (const auto& [id, use] : store.uses()) {
       if (rules_.forgets(use)) outdated.push_back(id);
     }
     if (outdated.empty()) return;
     store.remove(outdated);
-    for (const auto id : outdated) uses_.erase(id);
     context_.log().info(
         "{}: {} landmarks removed: on {} drives past them most others of their sessions were recognised, but not they",
         store.name(), outdated.size(), parameters_.forget_after);
@@ -203,6 +228,11 @@ class LandmarkStoreComponent final : public runtime::Component {
       return;
     }
     auto landmark = *read;
+    if (map_->map().is_other(landmark)) {
+      context_.log().warn_throttled(fmt::format("landmark {}", landmark.id),
+                                    "landmark {}: its id is that of another one; it is not stored", landmark.id);
+      return;
+    }
     const bool is_new_pose = map_->map().add(landmark);
     try {
       writer_->require(settings);
@@ -237,7 +267,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     NewLandmark added{landmark, *settings_, std::nullopt};
     if (is_followed()) {
       added.use = uses_[landmark.id];
-      added.use->session = session_;
+      added.use->session = run_.session;
     }
     // Not remembered, it is not moved later, either: by then, another robot's landmark may have its id.
     if (!writer_->write(added)) return;
@@ -294,7 +324,8 @@ class LandmarkStoreComponent final : public runtime::Component {
   PassCounter passes_;
   std::map<std::uint32_t, LandmarkUse> uses_;
   std::map<std::uint32_t, LandmarkUse> earlier_;  // of the landmarks of earlier runs, when this one began
-  std::uint32_t session_ = 1;                     ///< this run
+  StoredRun run_;                                 ///< this one
+  bool is_resumed_ = false;                       ///< goes on after a restart
   bool has_failed_ = false;
 };
 

@@ -35,6 +35,10 @@ void PassCounter::recognised(std::uint32_t id) {
   if (const auto found = landmarks_.find(id); found != landmarks_.end()) found->second.is_recognised = true;
 }
 
+void PassCounter::leave_out_current() {
+  for (auto& [id, landmark] : landmarks_) landmark.is_just_built = true;  // until the vehicle is not near it
+}
+
 std::vector<LandmarkPass> PassCounter::move_to(const Eigen::Vector2d& position_m) {
   std::vector<LandmarkPass> ended;
   if (last_ && (position_m - *last_).norm() < kStep_m) return ended;

@@ -22,6 +22,12 @@ void migrate(postgres::Connection& connection, const std::string& name, std::spa
 /// Throws StoreError unless the tables have layout `newest`.
 void check_layout(postgres::Connection& connection, const std::string& name, int newest);
 
+/// Adds the tables of runs, unless they are there. Returns false if the rights for them are missing: they came after the
+/// others, for which an owner may have given rights to somebody. Within a transaction; throws DatabaseError, like the next.
+bool make_tables_of_runs(postgres::Connection& connection);
+/// Whether they are there and can be used.
+bool has_tables_of_runs(postgres::Connection& connection);
+
 /// Problem with a remedy, for messages.
 std::string explain(const std::string& name, const postgres::DatabaseError& error);
 

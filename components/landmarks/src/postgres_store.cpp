@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A landmark store in a PostgreSQL database.
-#include <iomanip>
 #include <limits>
-#include <random>
-#include <sstream>
 #include <type_traits>
 
 #include "panvo/interfaces/place_rules.hpp"
@@ -11,6 +8,7 @@
 #include "panvo/postgres/worker.hpp"
 #include "postgres_rows.hpp"
 #include "postgres_schema.hpp"
+#include "postgres_writers.hpp"
 #include "store_backend.hpp"
 
 namespace panvo::landmarks {
@@ -32,13 +30,6 @@ class Failure : public StoreUnavailable {
   const bool is_lost, is_conflict;
   const void* const of;
 };
-
-std::string random_name() {
-  std::random_device device;
-  std::ostringstream name;
-  for (int i = 0; i < 4; ++i) name << std::hex << std::setw(8) << std::setfill('0') << device();
-  return name.str();
-}
 
 class PostgresStore final : public StoreBackend {
  public:
@@ -155,6 +146,13 @@ class PostgresStore final : public StoreBackend {
     return {column(0), column(1), column(2), column(3), column(4)};
   }
 
+  bool put_run(const StoredRun& run) override {
+    return told([&] { return landmarks::put_run(*connection_, run); });
+  }
+  void put_run_id(const std::string& run, std::int64_t in_run, std::int64_t in_store) override {
+    told([&] { landmarks::put_run_id(*connection_, run, in_run, in_store); });
+  }
+
   std::uint32_t next_session() override {
     std::int64_t session = 0;
     transact([&] {
@@ -188,6 +186,9 @@ class PostgresStore final : public StoreBackend {
     return uses;
   }
 
+  std::optional<StoredRun> find_run(const std::string& id) const override {
+    return repeated([&] { return told([&] { return landmarks::find_run(open(), id); }); });
+  }
   std::size_t size() const override { return number("SELECT count(*) FROM panvo.landmark"); }
   std::int64_t last_id() const override { return static_cast<std::int64_t>(number(kSelectLastId.c_str())); }
 
@@ -318,13 +319,13 @@ class PostgresStore final : public StoreBackend {
         run("INSERT INTO panvo.meta VALUES($1, $2)", {std::string_view(key), std::string_view(value)});
       }
     }
-    run("DELETE FROM panvo.writer WHERE at < now() - interval '30 days'");
+    told([&] { forget_old_writers(*connection_); });
   }
 
   const StoreLocation location_;
   const std::string name_;
   StorePatience patience_;
-  const std::string writer_ = random_name();
+  const std::string writer_ = new_writer_name();
   std::int64_t last_change_ = 0;
   mutable std::unique_ptr<Connection> connection_;
   mutable bool is_busy_ = false;

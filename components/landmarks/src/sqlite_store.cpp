@@ -120,7 +120,7 @@ class SqliteStore final : public StoreBackend {
       erase_from("landmark", "id");
       erase_from("keypoints", "landmark_id");
       erase_from("thumbnail", "landmark_id");
-      if (has_uses()) erase_from("landmark_use", "landmark_id");
+      if (has("landmark_use")) erase_from("landmark_use", "landmark_id");
     });
   }
 
@@ -143,6 +143,30 @@ class SqliteStore final : public StoreBackend {
     return found == known.end() ? LandmarkUse{} : found->second;
   }
 
+  bool put_run(const StoredRun& run) override {
+    return guarded([&] {
+      make_tables_of_runs(*database_);
+      Statement(*database_, "DELETE FROM run WHERE id <> ?").bind(1, run.id).run();
+      Statement(*database_, "DELETE FROM run_landmark WHERE run <> ?").bind(1, run.id).run();
+      Statement(*database_, "INSERT OR IGNORE INTO run VALUES(?, ?, ?)")
+          .bind(1, run.id)
+          .bind(2, std::int64_t{run.session})
+          .bind(3, std::int64_t{run.last_id})
+          .run();
+      return true;
+    });
+  }
+
+  void put_run_id(const std::string& run, std::int64_t in_run, std::int64_t in_store) override {
+    guarded([&] {
+      Statement(*database_, "INSERT OR REPLACE INTO run_landmark VALUES(?, ?, ?)")
+          .bind(1, run)
+          .bind(2, in_run)
+          .bind(3, in_store)
+          .run();
+    });
+  }
+
   std::uint32_t next_session() override {
     std::uint32_t last = 0;
     for (const auto& [id, use] : uses()) last = std::max(last, use.session);
@@ -161,7 +185,7 @@ class SqliteStore final : public StoreBackend {
   Uses uses() const override {
     return guarded([&] {
       Uses uses;
-      if (!has_uses()) return uses;
+      if (!has("landmark_use")) return uses;
       Statement rows(*database_, "SELECT * FROM landmark_use");
       const bool has_sessions = rows.columns() > 5;  // the first version of the table had none
       while (rows.step()) {
@@ -170,6 +194,19 @@ class SqliteStore final : public StoreBackend {
                                                              column(3), column(4)};
       }
       return uses;
+    });
+  }
+
+  std::optional<StoredRun> find_run(const std::string& id) const override {
+    return guarded([&]() -> std::optional<StoredRun> {
+      if (!has("run_landmark")) return std::nullopt;
+      Statement row(*database_, "SELECT session, last_id FROM run WHERE id = ?");
+      if (!row.bind(1, id).step()) return std::nullopt;
+      StoredRun run{id, use_number(row.integer(0)), id_number(row.integer(1)), {}};
+      Statement ids(*database_, "SELECT id_in_run, landmark_id FROM run_landmark WHERE run = ?");
+      ids.bind(1, id);
+      while (ids.step()) run.ids.emplace(id_number(ids.integer(0)), id_number(ids.integer(1)));
+      return run;
     });
   }
 
@@ -257,8 +294,8 @@ class SqliteStore final : public StoreBackend {
     });
   }
 
-  bool has_uses() const {
-    return number("SELECT count(*) FROM sqlite_master WHERE type='table' AND name='landmark_use'") > 0;
+  bool has(const std::string& table) const {
+    return number("SELECT count(*) FROM sqlite_master WHERE type='table' AND name='" + table + "'") > 0;
   }
 
   std::filesystem::path file_;

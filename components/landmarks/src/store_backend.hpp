@@ -9,6 +9,7 @@
 #include <string>
 
 #include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/landmarks/stored_run.hpp"
 #include "stored_landmark.hpp"
 
 namespace panvo::landmarks {
@@ -47,11 +48,18 @@ class StoreBackend {
   /// The use of a landmark, which no other writer changes before the transaction ends.
   virtual LandmarkUse use_to_change(std::int64_t id) = 0;
 
+  /// Keeps a run without its ids, unless it is kept already; forgets those that have ended. Returns false if the rights
+  /// for it are missing.
+  virtual bool put_run(const StoredRun& run) = 0;
+  /// Keeps the id of a landmark in a run that is kept.
+  virtual void put_run_id(const std::string& run, std::int64_t in_run, std::int64_t in_store) = 0;
+
   /// The number of a run that begins now. A server never gives it twice.
   virtual std::uint32_t next_session() = 0;
 
   virtual DescriptionSettings settings() const = 0;
   virtual Uses uses() const = 0;
+  virtual std::optional<StoredRun> find_run(const std::string& id) const = 0;
   virtual std::size_t size() const = 0;
   /// The highest id up to interfaces::kMaxLandmarkId that is taken or that was given; 0: none.
   virtual std::int64_t last_id() const = 0;

@@ -8,6 +8,8 @@
 namespace panvo::landmarks {
 namespace {
 
+void make(const BegunRun& change, LandmarkStore& store, StoredIds&) { store.begin_run(change.run); }
+
 void make(const NewLandmark& change, LandmarkStore& store, StoredIds& ids) {
   store.require(change.settings);
   const bool may_be_taken = change.landmark.id <= ids.last_known;
@@ -36,7 +38,8 @@ void make(const PassedLandmarks& change, LandmarkStore& store, StoredIds& ids) {
 
 std::size_t weight_of(const StoreChange& change) {
   if (const auto* passed = std::get_if<PassedLandmarks>(&change)) return passed->passes.size();
-  return std::holds_alternative<MovedLandmarks>(change) ? 0 : 1;
+  const bool is_for_free = std::holds_alternative<MovedLandmarks>(change) || std::holds_alternative<BegunRun>(change);
+  return is_for_free ? 0 : 1;
 }
 
 }  // namespace

@@ -13,6 +13,11 @@
 
 namespace panvo::landmarks {
 
+/// Comes before the first landmark that the run adds.
+struct BegunRun {
+  StoredRun run;
+  DescriptionSettings settings;
+};
 struct NewLandmark {
   PanoramicLandmark landmark;
   DescriptionSettings settings;
@@ -29,7 +34,7 @@ struct PassedLandmarks {
 };
 
 /// A change of a store, made by one transaction.
-using StoreChange = std::variant<NewLandmark, MovedLandmarks, RemovedLandmark, PassedLandmarks>;
+using StoreChange = std::variant<BegunRun, NewLandmark, MovedLandmarks, RemovedLandmark, PassedLandmarks>;
 
 /// Ids of landmarks in a store, by those that a run knows them by.
 struct StoredIds {

@@ -41,6 +41,14 @@ CREATE TABLE IF NOT EXISTS landmark_use(
   missed_in_company INTEGER NOT NULL, session INTEGER NOT NULL DEFAULT 0);
 )";
 
+// The same holds for these, which come with the first change of a live run.
+constexpr const char* kRuns = R"(
+CREATE TABLE IF NOT EXISTS run(
+  id TEXT PRIMARY KEY NOT NULL, session INTEGER NOT NULL, last_id INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS run_landmark(
+  run TEXT NOT NULL, id_in_run INTEGER NOT NULL, landmark_id INTEGER NOT NULL, PRIMARY KEY(run, id_in_run)) WITHOUT ROWID;
+)";
+
 /// "truncated after ... of ... bytes" if the file is shorter than its header states; else empty. Uses SQLite's file
 /// handle: closing a second descriptor of the file would release all its locks (POSIX).
 std::string cut_off(const Database& database) {
@@ -181,6 +189,8 @@ void make_table_of_uses(Database& database) {
   Statement session(database, "SELECT 1 FROM pragma_table_info('landmark_use') WHERE name = 'session'");
   if (!session.step()) database.execute("ALTER TABLE landmark_use ADD COLUMN session INTEGER NOT NULL DEFAULT 0");
 }
+
+void make_tables_of_runs(Database& database) { database.execute(kRuns); }
 
 void check_layout(const fs::path& file, const Database& database) {
   if (has_no_tables(database)) {

@@ -28,6 +28,8 @@ bool has_no_tables(const sqlite::Database& database);
 void make_tables(sqlite::Database& database);
 /// Adds the table of uses, unless it is there. Throws DatabaseError.
 void make_table_of_uses(sqlite::Database& database);
+/// Adds the tables of runs, unless they are there. Throws DatabaseError.
+void make_tables_of_runs(sqlite::Database& database);
 /// Throws StoreError if the database is not a landmark store or has another layout version.
 void check_layout(const std::filesystem::path& file, const sqlite::Database& database);
 

@@ -14,9 +14,13 @@ namespace {
 /// Keeps changes while another process reads the file: its lock keeps a change from being completed.
 class FileWriter final : public StoreWriter {
  public:
-  FileWriter(StoreLocation location, std::unique_ptr<LandmarkStore> store, std::size_t most_waiting, int lock_ms)
+  FileWriter(StoreLocation location, std::unique_ptr<LandmarkStore> store, StoredRun run, std::size_t most_waiting,
+             int lock_ms)
       : location_(std::move(location)), store_(std::move(store)), pending_(most_waiting), lock_ms_(lock_ms) {
     if (store_) ids_.last_known = store_->last_id();
+    ids_.known = run.ids;
+    // Made with the first change that there is: a run that changes nothing leaves the file alone.
+    if (!run.id.empty()) pending_.push(BegunRun{std::move(run), {}});
   }
 
   void require(const DescriptionSettings& settings) override {
@@ -91,17 +95,16 @@ class FileWriter final : public StoreWriter {
 class ServerWriter final : public StoreWriter {
  public:
   ServerWriter(StoreLocation location, std::optional<DescriptionSettings> settings, StorePatience patience,
-               std::size_t most_waiting)
-      : location_(std::move(location)),
-        settings_(std::move(settings)),
-        patience_(std::move(patience)),
-        pending_(most_waiting) {
+               StoredRun run, std::size_t most_waiting)
+      : location_(std::move(location)), patience_(std::move(patience)), run_(std::move(run)), pending_(most_waiting) {
+    ids_.known = run_.ids;
     patience_.pause = [this](int attempt, const std::string& problem) { return pause(attempt, problem); };
     worker_ = std::make_unique<postgres::Worker>([this] { return step(); });
+    if (settings) begin(*settings);
   }
 
   void require(const DescriptionSettings& settings) override {
-    if (!settings_) settings_ = settings;  // another robot may be faster: seen when the first landmark is stored
+    if (!settings_) begin(settings);  // another robot may be faster: seen when the first landmark is stored
     const auto found = differences(*settings_, settings);
     if (found.empty()) return;
     throw StoreError(location_.shown() + ": its landmarks were described with other settings: " + found.front() +
@@ -150,6 +153,14 @@ class ServerWriter final : public StoreWriter {
  private:
   void tell(bool is_error, const std::string& text) { notices_.push_back({is_error, location_.shown() + ": " + text}); }
 
+  /// The run is kept at once, not with its first landmark: until then, others may have added some.
+  void begin(const DescriptionSettings& settings) {
+    settings_ = settings;
+    if (run_.id.empty()) return;
+    worker_->locked([&] { pending_.push(BegunRun{run_, settings}); });
+    worker_->wake();
+  }
+
   // What follows runs on the worker's thread.
   bool step() {
     std::shared_ptr<const StoreChange> change;
@@ -173,10 +184,12 @@ class ServerWriter final : public StoreWriter {
 
   void make(const StoreChange& change) {
     if (!store_) {
+      const auto* begun = std::get_if<BegunRun>(&change);
       const auto* landmark = std::get_if<NewLandmark>(&change);
-      store_ = landmark ? std::make_unique<LandmarkStore>(location_, landmark->settings, patience_)
-                        : std::make_unique<LandmarkStore>(location_, LandmarkStore(location_, patience_).settings(),
-                                                          patience_);
+      const auto settings = begun      ? begun->settings
+                            : landmark ? landmark->settings
+                                       : LandmarkStore(location_, patience_).settings();
+      store_ = std::make_unique<LandmarkStore>(location_, settings, patience_);
     }
     apply(change, *store_, ids_);
   }
@@ -213,6 +226,7 @@ class ServerWriter final : public StoreWriter {
   const StoreLocation location_;
   std::optional<DescriptionSettings> settings_;
   StorePatience patience_;
+  const StoredRun run_;
   std::unique_ptr<LandmarkStore> store_;           // used by the worker only, like the ids
   StoredIds ids_{interfaces::kMaxLandmarkId, {}};  // others give ids, too
   PendingChanges pending_;
@@ -227,14 +241,14 @@ class ServerWriter final : public StoreWriter {
 }  // namespace
 
 std::unique_ptr<StoreWriter> write_to_file(const StoreLocation& location, std::unique_ptr<LandmarkStore> store,
-                                           std::size_t most_waiting, int lock_ms) {
-  return std::make_unique<FileWriter>(location, std::move(store), most_waiting, lock_ms);
+                                           StoredRun run, std::size_t most_waiting, int lock_ms) {
+  return std::make_unique<FileWriter>(location, std::move(store), std::move(run), most_waiting, lock_ms);
 }
 
 std::unique_ptr<StoreWriter> write_to_server(const StoreLocation& location,
                                              const std::optional<DescriptionSettings>& settings,
-                                             const StorePatience& patience, std::size_t most_waiting) {
-  return std::make_unique<ServerWriter>(location, settings, patience, most_waiting);
+                                             const StorePatience& patience, StoredRun run, std::size_t most_waiting) {
+  return std::make_unique<ServerWriter>(location, settings, patience, std::move(run), most_waiting);
 }
 
 }  // namespace panvo::landmarks

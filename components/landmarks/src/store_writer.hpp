@@ -43,13 +43,14 @@ class StoreWriter {
 /// Longest wait of finish() for a server, in addition to that for the answer that is due.
 inline constexpr int kFinish_ms = 5000;
 
-/// `store`: opened to write, if it exists. `most_waiting`: see PendingChanges. `lock_ms`: longest wait for the lock of
+/// `store`: opened to write, if it exists. `run`: ids that it has are those of the run before a restart. `most_waiting`: see PendingChanges. `lock_ms`: longest wait for the lock of
 /// another process; while changes wait, later ones do not wait for it.
 std::unique_ptr<StoreWriter> write_to_file(const StoreLocation& location, std::unique_ptr<LandmarkStore> store,
-                                           std::size_t most_waiting, int lock_ms = LandmarkStore::kBusy_ms);
+                                           StoredRun run, std::size_t most_waiting,
+                                           int lock_ms = LandmarkStore::kBusy_ms);
 /// `settings`: of the store, if it exists.
 std::unique_ptr<StoreWriter> write_to_server(const StoreLocation& location,
                                              const std::optional<DescriptionSettings>& settings,
-                                             const StorePatience& patience, std::size_t most_waiting);
+                                             const StorePatience& patience, StoredRun run, std::size_t most_waiting);
 
 }  // namespace panvo::landmarks

@@ -80,6 +80,10 @@ std::uint32_t use_number(std::int64_t stored) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(stored, 0, kMostUses));
 }
 
+std::uint32_t id_number(std::int64_t stored) {
+  return stored < 0 || stored > interfaces::kMaxLandmarkId ? 0 : static_cast<std::uint32_t>(stored);
+}
+
 std::uint64_t digest_of(const StoredLandmark& stored) {
   std::uint64_t digest = 0xcbf29ce484222325;
   const auto add = [&](const Bytes& bytes) {

@@ -45,6 +45,9 @@ PanoramicLandmark from_stored(const StoredLandmark& stored);
 /// A number of a column of landmark_use, which may be damaged.
 std::uint32_t use_number(std::int64_t stored);
 
+/// An id of a column that may be damaged; 0: none.
+std::uint32_t id_number(std::int64_t stored);
+
 /// A number that differs if any bit differs, to compare copies (FNV-1a).
 std::uint64_t digest_of(const StoredLandmark& stored);
 

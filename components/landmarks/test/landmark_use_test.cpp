@@ -53,6 +53,14 @@ TEST(PassCounter, EndsAPassOnlyWhenTheLandmarkIsLeft) {
   EXPECT_THAT(counter.move_to({80.0, 0.0}), IsEmpty());
 }
 
+TEST(PassCounter, CountsNoPassOfWhichItSawTheLastPartOnly) {
+  auto counter = road(3);
+  counter.leave_out_current();
+  counter.move_to({51.0, 0.0});
+  for (double x = 52.0; x <= 120.0; x += 1.0) EXPECT_THAT(counter.move_to({x, 0.0}), IsEmpty()) << x;
+  EXPECT_THAT(counter.move_to({126.0, 0.0}), ElementsAre(LandmarkPass{2, false, false})) << "was not near then";
+}
+
 TEST(PassCounter, CountsNoPassWhereALandmarkWasBuiltJustNow) {
   PassCounter counter;
   counter.move_to({0.0, 0.0});

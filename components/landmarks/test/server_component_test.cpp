@@ -204,7 +204,7 @@ TEST_F(ServerStoreComponent, MovesNoLandmarkOfAnotherRobotForOneThatItHadNoRoomF
 TEST_F(ServerStoreComponent, MovesNoLandmarkOfAnotherRobotForOneThatWasRefused) {
   LandmarkStore store(location(), made_up_settings());
   store.add(made_up_landmark(1));
-  const auto writer = write_to_server(location(), made_up_settings(), little_patience(), 10);
+  const auto writer = write_to_server(location(), made_up_settings(), little_patience(), {}, 10);
   auto broken = made_up_landmark(2);
   broken.covariance(0, 0) = -1.0;
   writer->write(NewLandmark{broken, made_up_settings(), std::nullopt});
@@ -267,7 +267,7 @@ TEST_F(ServerStoreComponent, StoresNothingInAStoreThatIsToBeRead) {
 
 TEST_F(ServerStoreComponent, CountsWhatIsLostInItsDiagnostics) {
   { const LandmarkStore made(location(), made_up_settings()); }
-  const auto writer = write_to_server(location(), made_up_settings(), little_patience(), 2);
+  const auto writer = write_to_server(location(), made_up_settings(), little_patience(), {}, 2);
   server_->stop();
   for (std::uint32_t id = 1; id <= 6; ++id) {
     writer->write(NewLandmark{made_up_landmark(id), made_up_settings(), std::nullopt});

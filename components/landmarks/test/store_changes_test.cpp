@@ -120,7 +120,7 @@ class FileWriter : public testing::Test {
   FileWriter() {
     auto store = std::make_unique<LandmarkStore>(file_, test::made_up_settings());
     store->add(test::made_up_landmark(1));
-    writer_ = write_to_file(file_, std::move(store), 2, 0);
+    writer_ = write_to_file(file_, std::move(store), {}, 2, 0);
   }
   /// Begins to read, like another process. The lock lasts as long as the result.
   std::unique_ptr<sqlite::Database> reader() const {
@@ -170,6 +170,21 @@ TEST_F(FileWriter, StoresAtTheEndWhatHadToWait) {
   reading.reset();
   writer_->finish();
   EXPECT_EQ(LandmarkStore(file_).size(), 2U);
+}
+
+TEST_F(FileWriter, KeepsARunWithTheFirstChangeThatItMakes) {
+  writer_ =
+      write_to_file(file_, std::make_unique<LandmarkStore>(file_, test::made_up_settings()), {"run", 4, 1, {}}, 2, 0);
+  EXPECT_FALSE(LandmarkStore(file_).find_run("run")) << "none yet";
+  auto reading = reader();
+  EXPECT_TRUE(writer_->write(added(2)));
+  reading.reset();
+  EXPECT_TRUE(writer_->write(added(3)));
+  const auto run = LandmarkStore(file_).find_run("run");
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->session, 4U);
+  EXPECT_EQ(run->last_id, 1U);
+  EXPECT_EQ(run->ids, (std::map<std::uint32_t, std::uint32_t>{{2, 2}, {3, 3}}));
 }
 
 TEST_F(FileWriter, TellsWhatIsLostBecauseAReaderDoesNotEnd) {

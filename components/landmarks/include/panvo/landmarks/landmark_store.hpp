@@ -17,6 +17,7 @@
 #include "panvo/landmarks/panoramic_landmark.hpp"
 #include "panvo/landmarks/store_error.hpp"
 #include "panvo/landmarks/store_location.hpp"
+#include "panvo/landmarks/stored_run.hpp"
 
 namespace panvo::landmarks {
 
@@ -81,6 +82,11 @@ class LandmarkStore {
   std::map<std::uint32_t, LandmarkUse> uses() const;
   /// The number of a run that begins now, counted from 1. A database gives each number once.
   std::uint32_t next_session() const;
+  /// A run that has begun, with the ids of the landmarks that it added; nullopt if it has not, or was forgotten.
+  std::optional<StoredRun> find_run(const std::string& id) const;
+  /// Keeps a run, unless it has begun already, and from now on with each landmark that is added its id in the run. A file
+  /// forgets all other runs, as it has one writer; a database those that have added nothing for 30 days.
+  void begin_run(const StoredRun& run);
   /// Appends all landmarks of another store of equal settings in one transaction, bit by bit, with new ids in their
   /// order; returns the first new id. How they served comes along, their sessions with new numbers.
   std::uint32_t append(const LandmarkStore& other);
@@ -116,6 +122,7 @@ class LandmarkStore {
   std::string name_;
   std::unique_ptr<StoreBackend> backend_;
   DescriptionSettings settings_;
+  std::string run_;  // empty: no ids are kept
 };
 
 }  // namespace panvo::landmarks

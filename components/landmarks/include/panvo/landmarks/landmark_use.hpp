@@ -49,6 +49,8 @@ class PassCounter {
   /// Adds a landmark of a session, or moves it. The drive that builds a landmark does not count as a pass.
   void set_landmark(std::uint32_t id, const Eigen::Vector2d& position_m, std::uint32_t session);
   void recognised(std::uint32_t id);
+  /// Of a pass that has begun, only the rest will be seen: it does not count.
+  void leave_out_current();
   /// Passes that have ended at this position of the vehicle.
   std::vector<LandmarkPass> move_to(const Eigen::Vector2d& position_m);
 
@@ -62,7 +64,7 @@ class PassCounter {
     Eigen::Vector2d position = Eigen::Vector2d::Zero();
     std::uint32_t session = 0;
     bool is_passed = false, is_recognised = false;
-    bool is_just_built = false;  ///< the vehicle has not left it yet
+    bool is_just_built = false;  ///< or the first part of the pass is unknown; the vehicle has not left it yet
   };
 
   std::map<std::uint32_t, Landmark> landmarks_;
