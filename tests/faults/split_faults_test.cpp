@@ -8,7 +8,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "panvo/runtime/test_domain.hpp"
 #include "panvo/test/temporary_folder.hpp"
@@ -23,16 +22,6 @@ using Words = std::vector<std::string>;
 
 constexpr std::chrono::seconds kLimit(100);
 constexpr int kFrames = 150;  // fifteen seconds at recorded speed
-
-/// The child process of `parent` with `word` in its command line; 0 if there is none.
-pid_t child_of(const Process& parent, const std::string& word) {
-  const std::string id = std::to_string(parent.id());
-  std::istringstream children(read_file("/proc/" + id + "/task/" + id + "/children"));
-  for (pid_t child = 0; children >> child;) {
-    if (read_file("/proc/" + std::to_string(child) + "/cmdline").find(word) != std::string::npos) return child;
-  }
-  return 0;
-}
 
 /// Whether no file in the folder was written within `time`.
 bool is_untouched(const std::filesystem::path& folder, std::chrono::seconds time) {

@@ -65,6 +65,15 @@ int Process::wait(std::chrono::seconds limit) {
 
 std::string Process::output() const { return folder_.read(kOutput); }
 
+pid_t child_of(const Process& parent, const std::string& word) {
+  const std::string id = std::to_string(parent.id());
+  std::istringstream children(read_file("/proc/" + id + "/task/" + id + "/children"));
+  for (pid_t child = 0; children >> child;) {
+    if (read_file("/proc/" + std::to_string(child) + "/cmdline").find(word) != std::string::npos) return child;
+  }
+  return 0;
+}
+
 Finished run(const std::vector<std::string>& words, std::chrono::seconds limit) {
   Process process(words);
   const int status = process.wait(limit);

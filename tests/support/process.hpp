@@ -36,6 +36,9 @@ class Process {
   TemporaryFolder folder_;
 };
 
+/// The child process of `parent` with `word` in its command line; 0 if there is none.
+pid_t child_of(const Process& parent, const std::string& word);
+
 struct Finished {
   int status;
   std::string output;
