@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "coarse_motion.hpp"
@@ -16,9 +17,9 @@
 #include "host_frame.hpp"
 #include "motion_model.hpp"
 #include "pair_check.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 #include "panvo/vision/stereo_matcher.hpp"
 #include "scene_check.hpp"
-#include "stamp_check.hpp"
 #include "stereo_pyramids.hpp"
 #include "swap_check.hpp"
 #include "track.hpp"
@@ -62,7 +63,9 @@ struct Arrivals {
   explicit Arrivals(const vision::PinholeCamera& camera) : pairs(camera) {}
 
   PairCheck pairs;
-  StampCheck stamps;
+  // Two stamps tell a clock that was set back: a late frame is alone as a rule, and each one that is lost moves the scene
+  // farther from the last good frame.
+  vision::StampSequence stamps{2};
 };
 
 /// Tracks of the last good frame in the next one, and the motion between the two.
@@ -112,10 +115,9 @@ class TrackingStage::Implementation {
   TrackedFrame track(const StereoFrame& frame) {
     TrackedFrame result;
     result.stamp_ns = frame.stamp_ns;
-    const auto late = arrivals_.stamps.find_fault(frame.stamp_ns);
-    result.is_late = late.has_value();
-    result.fault = late ? *late : find_fault(frame).value_or("");
-    remember_arrival(frame);
+    result.is_late = arrivals_.stamps.add(frame.stamp_ns) == vision::StampOrder::kNotLater;
+    result.fault = result.is_late ? late_fault(frame.stamp_ns) : find_fault(frame).value_or("");
+    arrivals_.pairs.remember(frame);  // bad frames, too
     if (!result.fault.empty()) return result;
 
     const StereoPyramids images = build_pyramids(frame);
@@ -162,10 +164,9 @@ class TrackingStage::Implementation {
     return arrivals_.pairs.find_fault(frame);
   }
 
-  /// Of bad frames, too.
-  void remember_arrival(const StereoFrame& frame) {
-    arrivals_.pairs.remember(frame);
-    arrivals_.stamps.remember(frame.stamp_ns);
+  std::string late_fault(std::int64_t stamp_ns) const {
+    return "stamp " + std::to_string(stamp_ns) + " ns is not later than the previous stamp, " +
+           std::to_string(*arrivals_.stamps.latest_ns()) + " ns";
   }
 
   StereoPyramids build_pyramids(const StereoFrame& frame) const {

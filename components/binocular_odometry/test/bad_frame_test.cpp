@@ -126,8 +126,8 @@ class LateFrames : public ::testing::Test {
     }
   }
 
-  void expect_no_effect_of(int late) {
-    const OdometryEstimate during = odometry_.step(frame(late));
+  void expect_no_effect_of(const StereoFrame& late) {
+    const OdometryEstimate during = odometry_.step(late);
     EXPECT_FALSE(during.quality.reliable);
     EXPECT_THAT(during.quality.reason, HasSubstr("is not later than the previous stamp"));
     EXPECT_EQ(during.odom_from_left.matrix(), estimate_.odom_from_left.matrix()) << "no jump";
@@ -141,19 +141,29 @@ class LateFrames : public ::testing::Test {
 
 TEST_F(LateFrames, OneThatComesTwice) {
   go_on_to(6);
-  expect_no_effect_of(6);
+  expect_no_effect_of(frame(6));
   go_on_to(10);
 }
 
 TEST_F(LateFrames, OneThatIsOvertaken) {
   go_on_to(6);
-  expect_no_effect_of(5);
+  expect_no_effect_of(frame(5));
   go_on_to(10);
 }
 
 TEST_F(LateFrames, SeveralInARow) {
   go_on_to(6);
-  for (int late = 4; late <= 6; ++late) expect_no_effect_of(late);
+  for (int late = 4; late <= 6; ++late) expect_no_effect_of(frame(late));
+  go_on_to(10);
+}
+
+/// One of the time before, as of a clock that was set back, among them.
+TEST_F(LateFrames, AfterOneThatIsVeryLate) {
+  go_on_to(6);
+  StereoFrame very_late = frame(5);
+  very_late.stamp_ns -= 900'000'000;
+  expect_no_effect_of(very_late);
+  expect_no_effect_of(frame(6));
   go_on_to(10);
 }
 

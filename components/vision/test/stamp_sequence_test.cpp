@@ -13,8 +13,7 @@ using ::testing::ElementsAre;
 using enum StampOrder;
 
 /// Of each of these stamps, in ms.
-std::vector<StampOrder> orders_of(const std::vector<std::int64_t>& stamps_ms) {
-  StampSequence stamps;
+std::vector<StampOrder> orders_of(const std::vector<std::int64_t>& stamps_ms, StampSequence stamps = {}) {
   std::vector<StampOrder> orders(stamps_ms.size());
   std::transform(stamps_ms.begin(), stamps_ms.end(), orders.begin(),
                  [&](std::int64_t stamp_ms) { return stamps.add(1'000'000 * stamp_ms); });
@@ -28,6 +27,23 @@ TEST(StampSequence, TellsWhatIsNotLater) {
 TEST(StampSequence, TellsAClockThatWasSetBackAndGoesOnWithTheNewTime) {
   EXPECT_THAT(orders_of({9000, 100, 200, 300, 400, 500, 600, 600}),
               ElementsAre(kLater, kNotLater, kNotLater, kNotLater, kNotLater, kSetBack, kLater, kNotLater));
+}
+
+TEST(StampSequence, TellsItAfterFewerStampsIfFewerAreAskedFor) {
+  const StampSequence two(2);
+  EXPECT_THAT(orders_of({9000, 100, 200, 300}, two), ElementsAre(kLater, kNotLater, kSetBack, kLater));
+  EXPECT_THAT(orders_of({9000, 100, 9000, 100, 9100}, two),
+              ElementsAre(kLater, kNotLater, kNotLater, kNotLater, kLater))
+      << "single ones";
+}
+
+TEST(StampSequence, SaysTheTimeThatCounts) {
+  StampSequence stamps(2);
+  EXPECT_FALSE(stamps.latest_ns());
+  for (const std::int64_t stamp_ns : {9'000'000'000LL, 100'000'000LL}) stamps.add(stamp_ns);
+  EXPECT_EQ(stamps.latest_ns(), 9'000'000'000);
+  stamps.add(200'000'000);
+  EXPECT_EQ(stamps.latest_ns(), 200'000'000);
 }
 
 TEST(StampSequence, KeepsTheTimeIfSomeSingleStampsAreLate) {
