@@ -269,6 +269,14 @@ TEST(OdometryBuffer, TellsTurnsOfMoreThanHalfATurnWhole) {
   }
 }
 
+/// Odometry that saw nothing of it, as of a blind camera.
+TEST(OdometryBuffer, TellsTurnsWholeThatOnlyACompassMeasured) {
+  auto chain = straight(std::vector<double>(10, 1e-4));
+  for (int i = 0; i < 10; ++i) chain.apply_yaw_correction(i * kEach_ns, (i + 1) * kEach_ns, 1.0, 1.0);
+  EXPECT_NEAR(chain.turn(0, 10 * kEach_ns)->change_rad, 10.0, 1e-6);
+  EXPECT_NEAR(*chain.raw_turn(0, 10 * kEach_ns), 0.0, 1e-9);
+}
+
 TEST(OdometryBuffer, KnowsTheTwist) {
   OdometryBuffer chain(60.0);
   OdometryPose pose;
