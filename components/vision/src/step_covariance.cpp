@@ -15,4 +15,11 @@ Matrix6d step_covariance(const Eigen::Isometry3d& odom_from_a, const Matrix6d& c
          parts.eigenvectors().transpose();
 }
 
+Matrix6d after_unknown_motion(const Matrix6d& covariance, const Vector6d& twist, double time_s) {
+  Matrix6d after = covariance;
+  after.diagonal().head<3>().array() += (time_s * twist.head<3>()).squaredNorm();
+  after.diagonal().tail<3>().array() += (time_s * twist.tail<3>()).squaredNorm();
+  return after;
+}
+
 }  // namespace panvo::vision

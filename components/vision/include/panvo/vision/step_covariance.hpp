@@ -14,4 +14,7 @@ Matrix6d step_covariance(const Eigen::Isometry3d& odom_from_a, const Matrix6d& c
                          const Eigen::Isometry3d& odom_from_b, const Matrix6d& covariance_b,
                          double min_variance = 1e-12);
 
+/// Covariance of a pose after a time of unknown motion: in any direction, as far as its twist (m/s and rad/s) leads.
+Matrix6d after_unknown_motion(const Matrix6d& covariance, const Vector6d& twist, double time_s);
+
 }  // namespace panvo::vision
