@@ -42,7 +42,8 @@ OdometryFusion::OdometryFusion(const FusionParameters& parameters)
     : parameters_(parameters),
       filter_(parameters),
       gyro_{SampleWindow<GyroSample>(kGyroGap_s)},
-      wheels_{SampleWindow<WheelSample>(kWheelGap_s)} {}
+      wheels_{SampleWindow<WheelSample>(kWheelGap_s)},
+      path_(parameters.max_speed_m_s) {}
 
 bool OdometryFusion::add(const StereoPose& stereo) {
   if (!stereo.odom_from_base.matrix().allFinite() || !stereo.covariance.allFinite()) return false;
@@ -76,7 +77,8 @@ std::optional<std::int64_t> OdometryFusion::blind_until() const {
   if (!latest_ || !wheels_.state.is_used || !wheels_at_stereo_ns_) return std::nullopt;
   const double silence_s = seconds(*wheels_at_stereo_ns_, *wheels_.window.latest_ns());
   const double from_stereo_s = seconds(previous_stereo_->stamp_ns, latest_->stamp_ns + kBlindStep_ns);
-  if (silence_s < std::max({kSilence_s, 3.0 * usual_s_, from_stereo_s}) + parameters_.patience_s) return std::nullopt;
+  if (silence_s < std::max({kSilence_s, 3.0 * interval_.median_s(), from_stereo_s}) + parameters_.patience_s)
+    return std::nullopt;
   const std::int64_t until_ns = latest_->stamp_ns + kBlindStep_ns;
   if (wheels_.window.span(later(latest_->stamp_ns, wheels_late_s_), later(until_ns, wheels_late_s_)).empty())
     return std::nullopt;
@@ -98,6 +100,7 @@ std::optional<FusedPose> OdometryFusion::next() {
   if (latest_) return step(stamp_ns, stereo);
   const Begin begin = begin_.value_or(Begin{stereo.odom_from_base, stereo.covariance});
   filter_.begin_at(begin.odom_from_base, begin.covariance);
+  path_.add(stereo.stamp_ns, stereo.odom_from_base, stereo.covariance, stereo.is_reliable);
   previous_stereo_ = stereo;
   FusedPose first;
   first.stamp_ns = stamp_ns;
@@ -120,12 +123,11 @@ OdometryFusion::Interval OdometryFusion::interval(std::int64_t from_ns, std::int
           .wheels = wheels_.window.span(later(from_ns, wheels_late_s_), later(to_ns, wheels_late_s_))};
 }
 
-/// Adds what the cameras saw, unless their odometry restarted elsewhere.
-void OdometryFusion::see(Interval& now, const StereoPose& stereo) const {
-  if (previous_stereo_->stamp_ns != now.from_ns) return;
-  const Eigen::Isometry3d seen = previous_stereo_->odom_from_base.inverse() * stereo.odom_from_base;
-  if (seen.translation().norm() >= parameters_.max_speed_m_s * now.dt_s) return;
-  now.seen = seen;
+/// Adds what the cameras saw, unless their odometry was restarted.
+void OdometryFusion::see(Interval& now, const StereoPose& stereo) {
+  path_.add(stereo.stamp_ns, stereo.odom_from_base, stereo.covariance, stereo.is_reliable);
+  if (!path_.follows() || previous_stereo_->stamp_ns != now.from_ns) return;
+  now.seen = previous_stereo_->odom_from_base.inverse() * stereo.odom_from_base;
   now.seen_covariance = vision::step_covariance(previous_stereo_->odom_from_base, previous_stereo_->covariance,
                                                 stereo.odom_from_base, stereo.covariance);
   now.is_reliable = stereo.is_reliable && previous_stereo_->is_reliable;
@@ -141,8 +143,8 @@ FusedPose OdometryFusion::step(std::int64_t to_ns, const std::optional<StereoPos
   fused.stamp_ns = to_ns;
 
   if (stereo) {
-    fused.is_reliable |= stereo->is_reliable;
-    usual_s_ += (usual_s_ == 0.0 ? 1.0 : 0.05) * (seconds(previous_stereo_->stamp_ns, to_ns) - usual_s_);
+    fused.is_reliable |= now.seen && stereo->is_reliable;
+    interval_.add(seconds(previous_stereo_->stamp_ns, to_ns));
     previous_stereo_ = stereo;
   }
   latest_ = fused;

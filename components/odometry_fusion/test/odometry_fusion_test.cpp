@@ -199,6 +199,28 @@ TEST(OdometryFusion, ContinuesWhenStereoPosesStop) {
   EXPECT_FALSE(pose->uses_cameras);
 }
 
+TEST(OdometryFusion, ContinuesWhenStereoPosesStopAlsoAfterAPauseOfAnHour) {
+  OdometryFusion fusion({});
+  const Outcome last = drive({.duration_s = 60.0, .motion = town}, fusion).back();
+  StereoPose stereo{last.fused.stamp_ns, last.stereo, last.stereo_covariance, true};
+  std::optional<FusedPose> pose;
+  for (int i = 0; i < 800; ++i) {  // two seconds with stereo poses, and two without
+    const std::int64_t stamp_ns = last.fused.stamp_ns + 3'600'000'000'000 + i * std::int64_t{5'000'000};
+    fusion.add(GyroSample{stamp_ns, Eigen::Vector3d(0.004, -0.006, 0.01 + 1e-6 * i), 0.0});
+    if (i % 4 == 0) fusion.add(WheelSample{stamp_ns, 5.0 / 1.01, 0.0, 0.0, 0.0, 0.0});
+    if (i % 8 == 0 && i < 400) {
+      stereo.stamp_ns = stamp_ns;
+      stereo.odom_from_base = stereo.odom_from_base * Eigen::Translation3d(0.2, 0.0, 0.0);
+      stereo.covariance += 1e-6 * vision::Matrix6d::Identity();
+      fusion.add(stereo);
+    }
+    while (const auto next = fusion.next()) pose = next;
+  }
+  ASSERT_TRUE(pose);
+  EXPECT_FALSE(pose->uses_cameras);
+  EXPECT_GT(seconds(stereo.stamp_ns, pose->stamp_ns), 1.5);
+}
+
 TEST(OdometryFusion, DoesNotDependOnTheOrderOfArrival) {
   const auto run = [](bool is_shuffled) {
     OdometryFusion fusion({});

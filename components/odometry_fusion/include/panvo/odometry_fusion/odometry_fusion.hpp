@@ -14,6 +14,8 @@
 #include "panvo/odometry_fusion/sample_window.hpp"
 #include "panvo/odometry_fusion/sensor_data.hpp"
 #include "panvo/odometry_fusion/sensor_trial.hpp"
+#include "panvo/vision/odometry_path.hpp"
+#include "panvo/vision/usual_interval.hpp"
 
 namespace panvo::odometry_fusion {
 
@@ -104,7 +106,7 @@ class OdometryFusion {
   bool must_wait(std::optional<std::int64_t> latest_ns, std::int64_t stamp_ns, double clock_s) const;
   std::optional<std::int64_t> blind_until() const;
   Interval interval(std::int64_t from_ns, std::int64_t to_ns) const;
-  void see(Interval& now, const StereoPose& stereo) const;
+  void see(Interval& now, const StereoPose& stereo);
   FusedPose step(std::int64_t to_ns, const std::optional<StereoPose>& stereo);
   void try_sensors(Interval& now);
   void try_gyro(const Interval& now);
@@ -132,12 +134,13 @@ class OdometryFusion {
   SensorState wheel_yaw_;
   std::optional<Begin> begin_;  // nullopt: at the first stereo pose
   std::deque<StereoPose> waiting_;
+  vision::OdometryPath path_;  // of the stereo odometry
   std::optional<StereoPose> previous_stereo_;
   std::optional<FusedPose> latest_;
   std::int64_t newest_ns_ = INT64_MIN;               // stamp of a stereo pose
   double wheels_late_s_ = 0.0;                       // their stamps
   std::optional<std::int64_t> wheels_at_stereo_ns_;  // latest wheel sample when the last stereo pose arrived
-  double usual_s_ = 0.0;                             // interval of stereo poses
+  vision::UsualInterval interval_;                   // of stereo poses
 };
 
 }  // namespace panvo::odometry_fusion
