@@ -6,7 +6,6 @@
 #include <iterator>
 #include <utility>
 
-#include "panvo/vision/reach.hpp"
 #include "panvo/vision/seconds.hpp"
 #include "panvo/vision/step_covariance.hpp"
 
@@ -15,7 +14,6 @@ namespace {
 
 constexpr double kHistory_s = 6.0;  // longer than a panorama serves as reference
 constexpr double kMaxGap_s = 0.5;   // between two stereo poses: a vehicle may turn within a longer one
-constexpr int kMaxUnreachable = 5;  // consecutive poses: the stereo odometry was restarted with another origin
 // Share of the points that agree with the stereo odometry: it is usually above 0.8. Fewer contradict it, if clearly more
 // agree on another motion.
 constexpr double kContradicted = 0.6, kClearly = 0.25;
@@ -37,9 +35,17 @@ void AllRoundOdometry::set_camera(const Eigen::Vector3d& base_from_camera) {
   motion_ = PanoramicMotion(base_from_camera_);
 }
 
-bool AllRoundOdometry::add(const StereoPose& stereo) {
-  if (!stereo_.empty() && stereo.stamp_ns <= stereo_.back().stamp_ns) return false;
-  if (is_unreachable(stereo)) return true;
+bool AllRoundOdometry::add(const StereoPose& received) {
+  if (received.stamp_ns <= newest_ns_) return false;
+  if (newest_ns_ != INT64_MIN) interval_.add(seconds(newest_ns_, received.stamp_ns));
+  newest_ns_ = received.stamp_ns;
+  const auto on_path = path_.add(received.stamp_ns, received.odom_from_base, received.covariance, received.is_reliable);
+  if (on_path == vision::OnPath::kElsewhere) {
+    // A reader may know the reason. If the path was shifted, it would take the pose for motion.
+    if (!blind_ && held_ == 0 && !shift_) emit(received);
+    return true;
+  }
+  const StereoPose stereo = on_path == vision::OnPath::kRestarted ? begin_anew(received) : received;
   const bool has_panoramas = panorama_ns_ && seconds(*panorama_ns_, stereo.stamp_ns) < parameters_.patience_s;
   stereo_.push_back(stereo);
   is_stereo_silent_ = false;
@@ -58,26 +64,26 @@ bool AllRoundOdometry::add(const StereoPose& stereo) {
   return true;
 }
 
-/// Whether no vehicle gets to a pose from the one before. Such a pose is passed on unchanged: its reader may know the
-/// reason. Several in a row mean that the stereo odometry was restarted.
-bool AllRoundOdometry::is_unreachable(const StereoPose& stereo) {
-  if (stereo_.empty()) return false;
-  const StereoPose& before = stereo_.back();
-  if (vision::is_within_reach(before.odom_from_base, stereo.odom_from_base, seconds(before.stamp_ns, stereo.stamp_ns),
-                              kMaxSpeed)) {
-    unreachable_ = 0;
-    return false;
-  }
-  if (++unreachable_ >= kMaxUnreachable) {
-    unreachable_ = 0;
-    held_ = 0;
-    stereo_.clear();
-    blind_.reset();
+/// The stereo odometry was restarted with another origin. A shifted path goes on as panoramas show, or where the motion
+/// leads. Otherwise poses are passed on as they are, and a reader notices the restart itself.
+StereoPose AllRoundOdometry::begin_anew(const StereoPose& stereo) {
+  if (!blind_) give_up();
+  stereo_.clear();
+  held_ = 0;
+  if (!blind_ && !shift_) {
     last_.reset();
-    return false;
+    return stereo;
   }
-  if (!blind_ && held_ == 0) emit(stereo);
-  return true;
+  StereoPose unmeasured = stereo;
+  unmeasured.is_reliable = false;
+  if (blind_) return unmeasured;
+  const Eigen::Isometry3d& moved = path_.motion_to_restart();
+  Pose here{emitted_.odom_from_base * moved,
+            vision::compose_covariance(emitted_.odom_from_base, emitted_.covariance, moved, vision::Matrix6d::Zero())};
+  here.covariance =
+      vision::after_unknown_motion(here.covariance, path_.velocity(), seconds(emitted_ns_, stereo.stamp_ns));
+  shift_ = Shift{{stereo.odom_from_base, stereo.covariance}, here};
+  return unmeasured;
 }
 
 void AllRoundOdometry::add(PanoramaPoints panorama, bool is_stereo_silent) {

@@ -14,6 +14,7 @@
 #include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/vision/usual_interval.hpp"
 
 namespace panvo::all_round_odometry {
 
@@ -35,8 +36,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
  private:
   static constexpr int kMaxRefused = 5;  // consecutive stereo poses, after which their clock counts as set back
   static constexpr std::size_t kMaxWaiting = 100;
-  static constexpr double kSilence_s = 0.3, kSilent = 3.0;    // at least, and in intervals
-  static constexpr double kMean = 0.1, kMaxInterval_s = 2.0;  // weight of an interval in the usual one
+  static constexpr double kSilence_s = 0.3, kSilent = 3.0;  // at least, and in intervals
 
   void on_stereo(const conversions::OdometryJoin::Joined& joined) {
     const auto pose = conversions::to_isometry(joined.odometry->pose().pose());
@@ -45,10 +45,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
                             conversions::to_matrix(joined.odometry->pose().covariance()), joined.quality.is_reliable};
     if (stereo_.size() >= kMaxWaiting) stereo_.erase(stereo_.begin());
     stereo_[stereo.stamp_ns] = joined;
-    if (last_) {
-      const double interval_s = 1e-9 * static_cast<double>(stereo.stamp_ns - conversions::stamp_ns(*last_));
-      usual_interval_s_ += kMean * (std::clamp(interval_s, 0.0, kMaxInterval_s) - usual_interval_s_);
-    }
+    if (last_) interval_.add(1e-9 * static_cast<double>(stereo.stamp_ns - conversions::stamp_ns(*last_)));
     last_ = joined.odometry;
     stereo_at_ns_ = context_.passing_ns();
     const vision::Stage stage(&timer_, "join");
@@ -81,7 +78,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
   bool is_stereo_silent(std::int64_t panorama_ns) const {
     const double late_s = 1e-9 * static_cast<double>(panorama_ns - conversions::stamp_ns(*last_));
     const double silence_s = 1e-9 * static_cast<double>(context_.passing_ns() - stereo_at_ns_);
-    return std::min(late_s, silence_s) > std::max(kSilence_s, kSilent * usual_interval_s_);
+    return std::min(late_s, silence_s) > std::max(kSilence_s, kSilent * interval_.median_s());
   }
 
   /// Learns distances again if the position of the panoramic camera in /tf_static differs from the current one.
@@ -138,8 +135,8 @@ class AllRoundOdometryComponent final : public runtime::Component {
   std::optional<conversions::OdometryListener> stereo_input_;
   std::map<std::int64_t, conversions::OdometryJoin::Joined> stereo_;  // by stamp, of poses that are not published yet
   std::shared_ptr<const nav_msgs::msg::Odometry> last_;
-  std::int64_t stereo_at_ns_ = 0;  // arrival
-  double usual_interval_s_ = 0.0;
+  std::int64_t stereo_at_ns_ = 0;   // arrival
+  vision::UsualInterval interval_;  // of stereo poses
   std::optional<AllRoundPose> before_;
   bool is_by_panoramas_ = false;
   int refused_ = 0;

@@ -10,8 +10,10 @@
 #include "panvo/all_round_odometry/camera_rotation.hpp"
 #include "panvo/all_round_odometry/panoramic_motion.hpp"
 #include "panvo/vision/clock_search.hpp"
+#include "panvo/vision/odometry_path.hpp"
 #include "panvo/vision/pose.hpp"
 #include "panvo/vision/stamp_sequence.hpp"
+#include "panvo/vision/usual_interval.hpp"
 
 namespace panvo::all_round_odometry {
 
@@ -56,7 +58,7 @@ class AllRoundOdometry {
   void set_camera(const Eigen::Vector3d& base_from_camera);
 
   /// In order of stamps; false, without effect, for a stamp not later than the last.
-  bool add(const StereoPose& stereo);
+  bool add(const StereoPose& received);
   /// The stereo odometry's clock was set back: forgets all panoramas, and begins again at this pose, where the path so
   /// far leads. `refused`: poses since the last that was added.
   void begin_again(const StereoPose& stereo, int refused);
@@ -91,7 +93,7 @@ class AllRoundOdometry {
   };
 
   std::optional<Shift> continued(const StereoPose& stereo, int refused) const;
-  bool is_unreachable(const StereoPose& stereo);
+  StereoPose begin_anew(const StereoPose& stereo);
   void forget_panoramas();
   void search_clock(const PanoramaPoints& received);
   vision::ClockSearch::Reference turns_of_stereo() const;
@@ -121,10 +123,12 @@ class AllRoundOdometry {
   vision::ClockSearch clock_search_;
   vision::ClockDoubt clock_doubt_;
   bool is_clock_doubtful_ = true;
-  double ahead_s_ = 0.0;           // the panoramic camera's clock
-  std::deque<StereoPose> stereo_;  // recent; the last held_ ones wait for a panorama
+  double ahead_s_ = 0.0;                  // the panoramic camera's clock
+  std::int64_t newest_ns_ = INT64_MIN;    // stamp of a stereo pose
+  vision::UsualInterval interval_;        // of stereo poses
+  vision::OdometryPath path_{kMaxSpeed};  // of the stereo odometry
+  std::deque<StereoPose> stereo_;         // recent ones on its path; the last held_ ones wait for a panorama
   std::size_t held_ = 0;
-  int unreachable_ = 0;                      // consecutive poses
   std::deque<PanoramaPoints> panoramas_;     // waiting for the stereo odometry
   vision::StampSequence panorama_stamps_;    // as received
   std::optional<std::int64_t> panorama_ns_;  // stamp of the latest
