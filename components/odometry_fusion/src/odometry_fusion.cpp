@@ -123,11 +123,13 @@ OdometryFusion::Interval OdometryFusion::interval(std::int64_t from_ns, std::int
           .wheels = wheels_.window.span(later(from_ns, wheels_late_s_), later(to_ns, wheels_late_s_))};
 }
 
-/// Adds what the cameras saw, unless their odometry was restarted.
+/// Adds what the cameras saw, unless their odometry was restarted or jumped.
 void OdometryFusion::see(Interval& now, const StereoPose& stereo) {
   path_.add(stereo.stamp_ns, stereo.odom_from_base, stereo.covariance, stereo.is_reliable);
   if (!path_.follows() || previous_stereo_->stamp_ns != now.from_ns) return;
-  now.seen = previous_stereo_->odom_from_base.inverse() * stereo.odom_from_base;
+  const Eigen::Isometry3d seen = previous_stereo_->odom_from_base.inverse() * stereo.odom_from_base;
+  if (seen.translation().norm() >= parameters_.max_speed_m_s * now.dt_s) return;
+  now.seen = seen;
   now.seen_covariance = vision::step_covariance(previous_stereo_->odom_from_base, previous_stereo_->covariance,
                                                 stereo.odom_from_base, stereo.covariance);
   now.is_reliable = stereo.is_reliable && previous_stereo_->is_reliable;

@@ -44,6 +44,11 @@ class Restarted {
     is_told_ = is_measured && !fused_.is_reliable;
   }
 
+  void jump(double by_m) {
+    stereo_.odom_from_base.translation().x() += by_m;
+    go_on();
+  }
+
   void set_clock_back(bool is_restarted_too = false) {
     stereo_.stamp_ns -= 10'000'000'000;
     if (is_restarted_too) stereo_.odom_from_base.setIdentity();
@@ -141,6 +146,15 @@ TEST(RestartedStereoOdometry, IsNotTakenForMotionOfAClockThatIsSetAfterAPause) {
   ASSERT_LT(drive.error_m(), 0.1);
   drive.set_clock_back(true);
   EXPECT_LT(drive.error_m(), 6 * kFrame_m + 0.1) << "it stays where it was";
+}
+
+TEST(JumpingStereoOdometry, IsNotTakenForMotionOfWhichNoVehicleIsCapable) {
+  Restarted odometry;
+  odometry.go(20.0);
+  odometry.jump(4.0);  // 105 m/s
+  EXPECT_LT(odometry.error_m(), 0.5);
+  odometry.go(20.0);
+  EXPECT_LT(odometry.error_m(), 0.5);
 }
 
 TEST(RestartedStereoOdometry, IsNoSingleWrongPose) {
