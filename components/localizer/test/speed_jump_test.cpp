@@ -43,6 +43,16 @@ std::set<int> jumps(const Camera& camera, double seconds, const WayAt& way_at) {
   return images;
 }
 
+/// Numbers of images that get lost, at random.
+std::set<int> tenth_of(int images, unsigned seed) {
+  std::mt19937_64 random(1000 + seed);
+  std::set<int> lost;
+  for (int i = 0; i < images; ++i) {
+    if (random() % 10 == 0) lost.insert(i);
+  }
+  return lost;
+}
+
 WayAt straight_at(double speed_m_s) {
   return [=](double t) { return Eigen::Vector2d(speed_m_s * t, 0.0); };
 }
@@ -86,6 +96,33 @@ TEST(SpeedJump, IsNotALostImage) {
   for (const double jitter_ms : {0.0, 1.0}) {
     const Camera camera{.jitter_s = 1e-3 * jitter_ms, .lost_images = {10, 40, 60, 61, 90, 91, 92, 93, 94}};
     EXPECT_EQ(jumps(camera, 8.0, straight_at(20.0)).size(), 0U) << jitter_ms;
+  }
+}
+
+TEST(SpeedJump, IsNotALostImageWhereStampsJitterAsWell) {
+  for (const double rate_hz : {25.0, 50.0}) {
+    for (const double speed_m_s : {5.0, 10.0}) {
+      int drives = 0;
+      for (unsigned seed = 1; seed <= 100; ++seed) {
+        const Camera camera{.rate_hz = rate_hz,
+                            .jitter_s = 0.1 / rate_hz,  // 4 ms at 25 Hz
+                            .seed = seed,
+                            .lost_images = tenth_of(80, seed)};
+        drives += jumps(camera, 1.6, straight_at(speed_m_s)).empty() ? 0 : 1;
+      }
+      EXPECT_LE(drives, 1) << "of 100, " << rate_hz << " Hz, " << speed_m_s << " m/s";
+    }
+  }
+}
+
+TEST(SpeedJump, ShowsWithinFourImagesWhereTheFirstOnesAreLost) {
+  for (const auto& [before_m_s, after_m_s] : {std::pair{10.0, 5.0}, {20.0, 10.0}, {5.0, 10.0}, {5.0, 0.0}}) {
+    for (const std::set<int>& lost : {std::set<int>{26}, {26, 27}, {25}, {25, 26}}) {
+      const auto images = jumps({.lost_images = lost}, 3.0, jumping({before_m_s, 0.0}, {after_m_s, 0.0}));
+      ASSERT_FALSE(images.empty()) << before_m_s << " to " << after_m_s << ", lost from " << *lost.begin();
+      EXPECT_GE(*images.begin(), 26) << before_m_s << " to " << after_m_s << ", lost from " << *lost.begin();
+      EXPECT_LE(*images.begin(), *lost.rbegin() + 4) << before_m_s << " to " << after_m_s;
+    }
   }
 }
 
