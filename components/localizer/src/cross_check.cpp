@@ -5,23 +5,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "panvo/localizer/speed_jump.hpp"
 #include "panvo/vision/angle.hpp"
 #include "panvo/vision/seconds.hpp"
 
 namespace panvo::localizer {
 namespace {
 
-// Probability that the side considered right in a dispute is wrong: then the pose is off by three standard deviations.
-constexpr double kDoubt = 1.0 / 9.0;
-constexpr double kUnseen_s = 5.0;  // unseen motion of the vehicle is bounded by that of so long a silence
-constexpr double kReach = 3.0;     // standard deviations of that
-constexpr double kAlarm_s = 0.5;   // time until a panorama confirms or refutes the jump
-
-constexpr double kSteady_s = 0.2;          // interval over which the current motion is measured
-constexpr double kOdometryError_m = 0.03;  // over some tenths of a second
-constexpr double kSteady = 3.0;            // standard deviations of usual vehicle motion
-constexpr double kImpossible = 6.0;        // the same
+constexpr double kUnseen_s = 5.0;    // unseen motion of the vehicle is bounded by that of so long a silence
+constexpr double kReach = 3.0;       // standard deviations of that
+constexpr double kAlarm_s = 0.5;     // time until a panorama confirms or refutes the jump
+constexpr double kImpossible = 6.0;  // standard deviations of usual vehicle motion
 
 constexpr double kDirectionError_rad = 0.01;     // of panoramas, in addition to their stated error
 constexpr double kAlike_rad = 0.005;             // error common to the directions of all panoramas of a journey
@@ -53,7 +46,7 @@ CrossCheck::CrossCheck(const Parameters& parameters)
 void CrossCheck::add_step(const OdometryBuffer& chain) {
   const auto& now = chain.latest().pose;
   const auto before_ns = chain.stamp_before_latest(1);
-  if (const auto change_m_s = speed_jump_m_s(chain, agreed_ns_)) jump_ = Jump{now.stamp_ns, *change_m_s};
+  look_for_jump(chain);
   if (break_ && !break_->is_over) {
     break_->to_ns = now.stamp_ns;
     break_->is_over = now.is_reliable;
@@ -88,11 +81,13 @@ std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const St
   if (turn_dispute_.is_on()) {
     chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(turn_dispute_.blame().doubt));
   }
+  drop_old_jump(stretch.to_ns);
   const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
   if (odometry && azimuth.motion_azimuth_variance_rad2 > 0.0) {
     const auto verdict = judge_way(azimuth, *odometry, way_variance_m2);
     take(verdict);
-    const auto& off_m = verdict.off_m;
+    auto off_m = verdict.off_m;
+    if (!off_m) off_m = settle_jump(chain, stretch, odometry->way_m.norm(), azimuth.side_parallax_rad);
     if (is_camera_turned() || (!off_m && !turn_dispute_.is_on())) {
       way_dispute_.end();
     } else {
@@ -106,9 +101,13 @@ std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const St
     }
   }
   const auto broken_ns = settle_break(chain, stretch);
-  if (is_disputed()) return std::min(stretch.from_ns, broken_ns.value_or(stretch.from_ns));
-  jump_.reset();
-  if (!break_) agreed_ns_ = stretch.to_ns;
+  const std::int64_t unsure_ns = std::min(stretch.from_ns, broken_ns.value_or(stretch.from_ns));
+  if (jump_ && jump_->contradicted_ns) return std::min(unsure_ns, *agreed_ns_);
+  if (is_disputed() || unsure_.is_on()) return unsure_ns;
+  if (!break_ && !jump_) agreed_ns_ = stretch.to_ns;
+  if (odometry && !break_ && !jump_) {
+    witness_.add(chain.at(stretch.to_ns)->way_m, odometry->way_m.norm(), azimuth.side_parallax_rad);
+  }
   return broken_ns;
 }
 
@@ -122,7 +121,9 @@ void CrossCheck::forget() {
   agreed_ns_.reset();
   seen_.reset();
   lasting_.reset();
-  jump_.reset();
+  end_jump();
+  witness_.forget();
+  speed_agreed_ns_.reset();
   break_.reset();
 }
 
@@ -137,8 +138,10 @@ std::vector<Doubt> CrossCheck::doubts(std::int64_t now_ns) const {
     doubts.push_back({kReach * way_sigma_m(motion_, kUnseen_s), true,
                       "odometry lost track, and nothing has confirmed yet that the vehicle was not moved"});
   }
-  if (jump_ && is_fresh(jump_->stamp_ns, now_ns)) {
-    doubts.push_back({jump_->speed_m_s * kAlarm_s, true, "implausible change of the odometry's speed"});
+  if (jump_ && is_fresh(jump_->last_ns(), now_ns)) {
+    const double since_s = jump_->contradicted_ns ? 0.0 : vision::seconds(jump_->since_ns, now_ns);
+    doubts.push_back(
+        {jump_->speed_m_s * std::max(kAlarm_s, since_s), true, "implausible change of the odometry's speed"});
   }
   if (turn_dispute_.is_on() && is_fresh(turn_dispute_.stamp_ns(), now_ns)) {
     doubts.push_back({0.0, true, "odometry and panoramas disagree on the rotation"});

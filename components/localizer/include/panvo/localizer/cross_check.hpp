@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/mounting_history.hpp"
 #include "panvo/localizer/odometry_buffer.hpp"
+#include "panvo/localizer/speed_witness.hpp"
 
 namespace panvo::localizer {
 
@@ -103,9 +105,21 @@ class CrossCheck {
     std::optional<double> camera_turned_rad;  // camera_turned_rad_ from now on
   };
 
-  struct Jump {  // of the odometry's speed
-    std::int64_t stamp_ns;
-    double speed_m_s;
+  struct Jump {                                     // of the odometry's speed
+    std::int64_t since_ns;                          // last image before it
+    std::int64_t shown_ns;                          // last image that shows it
+    double speed_m_s;                               // change
+    bool is_from_agreement = false;                 // odometry was right before
+    std::optional<std::int64_t> contradicted_ns{};  // last panorama that contradicts it
+    bool is_agreeing = false;                       // the last panorama confirmed it
+
+    std::int64_t last_ns() const { return std::max(shown_ns, contradicted_ns.value_or(shown_ns)); }
+  };
+
+  struct Unjumped {   // a stretch, if the vehicle went on as before the jump
+    double length_m;  // of the whole stretch
+    double off_m;     // from odometry
+    double time_s;    // since the jump
   };
 
   struct Break {  // of the odometry, between two measured images
@@ -122,6 +136,14 @@ class CrossCheck {
   DirectionOffset latest_offset() const;
   WayVerdict judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
   void take(const WayVerdict& verdict);
+  void look_for_jump(const OdometryBuffer& chain);
+  std::optional<Unjumped> unless_it_jumped(const OdometryBuffer& chain, std::int64_t from_ns, std::int64_t to_ns) const;
+  bool goes_on_as_before(const Stretch& stretch, const Unjumped& unjumped) const;
+  std::optional<double> settle_jump(OdometryBuffer& chain, const Stretch& stretch, double said_m,
+                                    double side_parallax_rad);
+  void catch_up(OdometryBuffer& chain, const Stretch& stretch);
+  void end_jump();
+  void drop_old_jump(std::int64_t now_ns);
   Lasting lasting_with(std::int64_t reference_ns, double seen_rad, double length_m) const;
   std::optional<std::int64_t> settle_break(OdometryBuffer& chain, const Stretch& stretch);
   bool is_disputed() const noexcept { return turn_dispute_.is_on() || way_dispute_.is_on(); }
@@ -129,6 +151,12 @@ class CrossCheck {
     return turn_dispute_.is_on() && turn_dispute_.blame().wrong == Wrong::kPanoramas;
   }
   bool is_fresh(std::int64_t stamp_ns, std::int64_t now_ns) const;
+
+  // Probability that the side considered right in a dispute is wrong: then the pose is off by three standard deviations.
+  static constexpr double kDoubt = 1.0 / 9.0;
+  static constexpr double kSteady_s = 0.2;          // interval over which the current motion is measured
+  static constexpr double kOdometryError_m = 0.03;  // over some tenths of a second
+  static constexpr double kSteady = 3.0;            // standard deviations of usual vehicle motion
 
   const double contradiction_sigmas_, patience_s_;
   const MotionPrior motion_;
@@ -139,8 +167,11 @@ class CrossCheck {
   std::optional<std::int64_t> agreed_ns_;  // last panorama that agreed with odometry
   std::optional<Seen> seen_;               // last, against the current reference
   std::optional<Lasting> lasting_;         // while the directions differ
-  std::optional<Jump> jump_;               // since the last panorama
-  std::optional<Break> break_;             // not yet confirmed by a panorama
+  std::optional<Jump> jump_;               // not yet confirmed by a panorama
+  Dispute unsure_;                         // while panoramas neither confirm nor contradict it
+  SpeedWitness witness_;
+  std::optional<std::int64_t> speed_agreed_ns_;  // panorama that confirmed the speed after the last jump
+  std::optional<Break> break_;                   // not yet confirmed by a panorama
 };
 
 }  // namespace panvo::localizer

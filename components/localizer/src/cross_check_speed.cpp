@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "panvo/localizer/cross_check.hpp"
+#include "panvo/localizer/speed_jump.hpp"
+#include "panvo/vision/seconds.hpp"
+
+/// Processing of jumps of the odometry's speed.
+namespace panvo::localizer {
+namespace {
+
+constexpr std::size_t kShowsWithin = 4;  // images after a jump
+constexpr double kUnlike = 2.0;          // times what usual motion deviates: a jump would show in that time
+constexpr double kSame = 0.2;            // of a way: a smaller difference is no jump
+constexpr double kLongestJump_s = 5.0;   // then, neither scenery nor speed are as before
+
+}  // namespace
+
+void CrossCheck::look_for_jump(const OdometryBuffer& chain) {
+  const auto change_m_s = speed_jump_m_s(chain, speed_agreed_ns_);
+  const auto since_ns = chain.stamp_before_latest(kShowsWithin);
+  if (!change_m_s || !since_ns) return;
+  const std::int64_t now_ns = chain.latest().pose.stamp_ns;
+  drop_old_jump(now_ns);
+  if (!jump_) jump_ = Jump{*since_ns, now_ns, *change_m_s};
+  // During a dispute, the motion before was wrong.
+  jump_->is_from_agreement = agreed_ns_ && (!is_disputed() || jump_->contradicted_ns);
+  jump_->shown_ns = now_ns;
+  jump_->speed_m_s = std::max(jump_->speed_m_s, *change_m_s);
+  if (agreed_ns_) agreed_ns_ = std::min(*agreed_ns_, *since_ns);
+}
+
+/// Compares a stretch with one on which the vehicle goes on as it did before the jump.
+auto CrossCheck::unless_it_jumped(const OdometryBuffer& chain, std::int64_t from_ns, std::int64_t to_ns) const
+    -> std::optional<Unjumped> {
+  if (!agreed_ns_ || to_ns <= *agreed_ns_) return std::nullopt;
+  const std::int64_t begin_ns = std::max(from_ns, *agreed_ns_);
+  const auto steady = moved(chain, *agreed_ns_ - static_cast<std::int64_t>(kSteady_s * 1e9), *agreed_ns_);
+  const auto before = moved(chain, std::min(from_ns, begin_ns), begin_ns), since = moved(chain, begin_ns, to_ns);
+  if (!steady || !before || !since) return std::nullopt;
+  const double time_s = vision::seconds(begin_ns, to_ns);
+  const Eigen::Vector2d way_m = steady->way_m * (time_s / kSteady_s);
+  return Unjumped{before->way_m.norm() + way_m.norm(), (since->way_m - way_m).norm(), time_s};
+}
+
+bool CrossCheck::goes_on_as_before(const Stretch& stretch, const Unjumped& unjumped) const {
+  const double usual_m = kSteady * (way_sigma_m(motion_, unjumped.time_s) + kOdometryError_m);
+  const double jumped_s = vision::seconds(std::max(stretch.from_ns, jump_->shown_ns), stretch.to_ns);
+  return unjumped.off_m < std::min(usual_m, kSame * unjumped.length_m + kOdometryError_m) &&
+         jump_->speed_m_s * jumped_s > kUnlike * usual_m;
+}
+
+/// Processes a stretch on which the directions of motion agree, which says nothing of the speed. Returns how far odometry
+/// is off if panoramas contradict its speed.
+std::optional<double> CrossCheck::settle_jump(OdometryBuffer& chain, const Stretch& stretch, double said_m,
+                                              double side_parallax_rad) {
+  if (!jump_ || turn_dispute_.is_on() || stretch.to_ns <= jump_->since_ns) return std::nullopt;
+  std::optional<Unjumped> unjumped;
+  if (jump_->is_from_agreement) unjumped = unless_it_jumped(chain, stretch.from_ns, stretch.to_ns);
+  const std::optional<double> otherwise_m = unjumped ? std::optional(unjumped->length_m) : std::nullopt;
+  const auto verdict = witness_.judge(side_parallax_rad, said_m, otherwise_m);
+  const bool was_agreeing = jump_->is_agreeing || !unjumped;
+  jump_->is_agreeing = verdict == SpeedVerdict::kAgrees;
+  if ((jump_->is_agreeing && was_agreeing) || (unjumped && goes_on_as_before(stretch, *unjumped))) {
+    speed_agreed_ns_ = stretch.to_ns;
+    end_jump();
+    return std::nullopt;
+  }
+  if (!unjumped) return std::nullopt;
+  if (verdict == SpeedVerdict::kContradicts) {
+    if (!jump_->contradicted_ns) catch_up(chain, stretch);
+    jump_->contradicted_ns = stretch.to_ns;
+  }
+  if (jump_->contradicted_ns) return unjumped->off_m;
+  unsure_.add(stretch.reference_ns, stretch.to_ns, unjumped->off_m, {});
+  chain.allow(stretch.from_ns, stretch.to_ns, unsure_.growth(kDoubt), 0.0);
+  return std::nullopt;
+}
+
+/// Odometry has been wrong since the jump, not only since the panorama that shows it.
+void CrossCheck::catch_up(OdometryBuffer& chain, const Stretch& stretch) {
+  const auto earlier = unless_it_jumped(chain, *agreed_ns_, stretch.from_ns);
+  if (!earlier || way_dispute_.is_on()) return;
+  way_dispute_.add(*agreed_ns_, stretch.from_ns, earlier->off_m, {Wrong::kOdometry, 0.0});
+  chain.allow(*agreed_ns_, stretch.from_ns, way_dispute_.growth(1.0), 0.0);
+}
+
+void CrossCheck::end_jump() {
+  jump_.reset();
+  unsure_.end();
+}
+
+/// A jump that nothing confirms or contradicts any more is over after some time: then it cannot be told.
+void CrossCheck::drop_old_jump(std::int64_t now_ns) {
+  if (!jump_) return;
+  if (!is_fresh(jump_->last_ns(), now_ns) || vision::seconds(jump_->since_ns, now_ns) > kLongestJump_s) end_jump();
+}
+
+}  // namespace panvo::localizer

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The localizer with odometry whose speed jumps while its direction stays right.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "panvo/localizer/localizer.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+/// A vehicle that drives straight ahead, with 25 stereo pairs and 5 panoramas per second.
+class Ahead {
+ public:
+  Ahead() : localizer(parameters()) { localizer.add(odometry_); }
+
+  void drive(double seconds) {
+    const int frames = static_cast<int>(std::lround(seconds * 25.0));
+    for (int i = 0; i < frames; ++i) step();
+  }
+
+  double error_m() const { return std::abs(localizer.latest().map_from_base.translation().x() - true_x_m_); }
+  double sigma_m() const { return std::sqrt(localizer.latest().covariance(0, 0)); }
+  bool is_usable() const {
+    for (const auto& doubt : localizer.doubts()) {
+      if (doubt.forbids_use) return false;
+    }
+    return localizer.latest().state == State::kTracking;
+  }
+  double doubted_m() const {
+    double sum_m = 0.0;
+    for (const auto& doubt : localizer.doubts()) sum_m += doubt.off_m;
+    return sum_m;
+  }
+
+  Localizer localizer;
+  double speed_m_s = 5.0;
+  double scale = 1.0;       // of the odometry
+  double farness_m = 12.0;  // of what is beside the path
+  bool has_panoramas = true;
+
+ private:
+  static Parameters parameters() {
+    Parameters parameters;
+    parameters.scale_sigma = parameters.turn_scale_sigma = parameters.turn_lean_sigma_deg_m = 0.0;
+    parameters.clock_sigma_s = 0.0;
+    return parameters;
+  }
+
+  void step() {
+    constexpr std::int64_t kPair_ns = 40'000'000;
+    ++frame_;
+    true_x_m_ += speed_m_s * 0.04;
+    Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
+    move.translation().x() = scale * speed_m_s * 0.04;
+    vision::Matrix6d gained = 1e-4 * 1e-4 * vision::Matrix6d::Identity();
+    gained.topLeftCorner<3, 3>() = 0.002 * 0.002 * Eigen::Matrix3d::Identity();
+    odometry_.covariance = vision::compose_covariance(odometry_.odom_from_base, odometry_.covariance, move, gained);
+    odometry_.odom_from_base = odometry_.odom_from_base * move;
+    odometry_.stamp_ns = frame_ * kPair_ns;
+    localizer.add(odometry_);
+    if (frame_ % 5 != 0 || !has_panoramas) return;
+    localizer.add(AzimuthMeasurement{odometry_.stamp_ns - 5 * kPair_ns, odometry_.stamp_ns, 0.0, 1e-8, 0.0,
+                                     speed_m_s != 0.0 ? 1e-5 : 1.0, speed_m_s * 0.2 / farness_m});
+  }
+
+  OdometryPose odometry_;
+  std::int64_t frame_ = 0;
+  double true_x_m_ = 0.0;
+};
+
+TEST(LocalizerSpeed, CoversAnOdometryWhoseSpeedJumpsAlthoughItsDirectionStays) {
+  for (const double scale : {0.45, 0.5, 2.0, 3.0, 0.0}) {
+    for (const double after_s : {0.0, 0.08, 0.16}) {  // the last panorama
+      Ahead vehicle;
+      vehicle.drive(5.0 + after_s);
+      vehicle.scale = scale;
+      vehicle.drive(0.2);
+      EXPECT_FALSE(vehicle.is_usable()) << scale << ", " << after_s << " s";
+      for (int i = 0; i < 6; ++i) {
+        vehicle.drive(0.4);
+        EXPECT_FALSE(vehicle.is_usable()) << scale << ", " << after_s << " s, " << i;
+        EXPECT_LT(vehicle.error_m(), 3.0 * vehicle.sigma_m() + vehicle.doubted_m())
+            << scale << ", " << after_s << " s, " << i;
+      }
+      EXPECT_EQ(vehicle.localizer.latest().state, State::kCompassOnly) << scale << ", " << after_s << " s";
+      EXPECT_NEAR(vehicle.sigma_m(), vehicle.error_m(), 0.4 * vehicle.error_m()) << scale << ", " << after_s << " s";
+    }
+  }
+}
+
+TEST(LocalizerSpeed, CanBeUsedAgainWhereTheOdometryIsRightAgain) {
+  for (const double scale : {0.45, 2.0}) {
+    Ahead vehicle;
+    vehicle.drive(5.0);
+    vehicle.scale = scale;
+    vehicle.drive(2.0);
+    vehicle.scale = 1.0;
+    vehicle.drive(1.0);
+    EXPECT_TRUE(vehicle.is_usable()) << scale;
+    EXPECT_LT(vehicle.error_m(), 3.0 * vehicle.sigma_m()) << scale;
+    const double sigma_m = vehicle.sigma_m();
+    vehicle.drive(4.0);
+    EXPECT_LT(vehicle.sigma_m(), sigma_m + 0.1) << scale;
+  }
+}
+
+TEST(LocalizerSpeed, ConfirmsByTheParallaxASpeedThatIsRight) {
+  for (const double speed_m_s : {2.0, 12.0}) {
+    for (const double scenery : {0.75, 1.0, 1.3}) {
+      Ahead vehicle;
+      vehicle.drive(5.0);
+      vehicle.speed_m_s = speed_m_s;  // a crash, or whoever else is right
+      vehicle.farness_m *= scenery;
+      vehicle.drive(0.12);
+      EXPECT_FALSE(vehicle.is_usable()) << speed_m_s << " m/s, " << scenery;
+      vehicle.drive(0.68);
+      EXPECT_TRUE(vehicle.is_usable()) << speed_m_s << " m/s, " << scenery;
+      vehicle.drive(2.0);
+      EXPECT_TRUE(vehicle.is_usable()) << speed_m_s << " m/s, " << scenery;
+      EXPECT_LT(vehicle.sigma_m(), 0.5) << speed_m_s << " m/s, " << scenery;
+    }
+  }
+}
+
+TEST(LocalizerSpeed, DoubtsForASecondWhatPanoramasCannotTell) {
+  const auto after_the_jump = [](double farness_m, double scale) {
+    Ahead vehicle;
+    vehicle.speed_m_s = 10.0;
+    vehicle.farness_m = farness_m;
+    vehicle.drive(5.0);
+    vehicle.scale = scale;
+    vehicle.drive(0.8);
+    EXPECT_FALSE(vehicle.is_usable()) << farness_m << " m, " << scale;
+    EXPECT_GT(vehicle.doubted_m(), vehicle.error_m()) << farness_m << " m, " << scale;
+    vehicle.drive(1.2);
+    EXPECT_TRUE(vehicle.is_usable()) << farness_m << " m, " << scale;
+    const double sigma_m = vehicle.sigma_m();
+    vehicle.drive(4.0);
+    EXPECT_LT(vehicle.sigma_m(), sigma_m + 0.1) << farness_m << " m, " << scale;
+    return sigma_m;
+  };
+  EXPECT_NEAR(after_the_jump(20'000.0, 2.0), 10.0 / 3.0, 1.3) << "nothing near beside the path";
+  EXPECT_NEAR(after_the_jump(20.0, 1.4), 4.0 / 3.0, 0.6) << "scenery changes as much";
+}
+
+TEST(LocalizerSpeed, ForgetsAJumpThatNoPanoramaSaw) {
+  Ahead vehicle;
+  vehicle.has_panoramas = false;
+  vehicle.drive(2.0);
+  vehicle.scale = 2.0;
+  vehicle.drive(20.0);
+  EXPECT_TRUE(vehicle.is_usable());
+  vehicle.scale = 1.0;
+  vehicle.drive(0.2);
+  EXPECT_FALSE(vehicle.is_usable());
+  EXPECT_LT(vehicle.doubted_m(), 5.0) << "by the last jump";
+}
+
+TEST(LocalizerSpeed, IsNoDoubtWhereTheSceneryChangesButNotTheSpeed) {
+  Ahead vehicle;
+  vehicle.drive(5.0);
+  for (const double farness_m : {30.0, 4.0, 200.0, 12.0}) {  // a yard, an arch, a bridge
+    vehicle.farness_m = farness_m;
+    for (int i = 0; i < 10; ++i) {
+      vehicle.drive(0.2);
+      EXPECT_TRUE(vehicle.is_usable()) << farness_m << " m";
+    }
+  }
+  EXPECT_LT(vehicle.sigma_m(), 0.2);
+}
+
+}  // namespace
+}  // namespace panvo::localizer
