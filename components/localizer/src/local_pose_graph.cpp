@@ -23,6 +23,17 @@ vision::Matrix6d cut_covariance() {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
+/// Covariance, in the axes of a way, that it has by the scale and direction of the odometry.
+vision::Matrix6d way_covariance_of(const Eigen::Vector3d& way, double scale_sigma, double direction_sigma_rad) {
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(way);
+  // A direction error also shortens the distance along the path: by 1 - cos.
+  const double length_sigma = std::hypot(scale_sigma, 0.5 * direction_sigma_rad * direction_sigma_rad);
+  covariance.topLeftCorner<3, 3>() = length_sigma * length_sigma * way * way.transpose() +
+                                     direction_sigma_rad * direction_sigma_rad * across * across.transpose();
+  return covariance;
+}
+
 }  // namespace
 
 LocalPoseGraph::LocalPoseGraph(double start_sigma_m, double start_sigma_rad, double scale_sigma,
@@ -135,10 +146,7 @@ std::vector<KnownLandmark> LocalPoseGraph::landmarks() const {
 
 PoseInMap LocalPoseGraph::carried(const OdometrySample& at) const {
   PoseInMap here = reckoned(at);
-  const Node* const from = enu_ ? solved_node() : last_known_pass();
-  if (from == nullptr || at.pose.stamp_ns < from->at.pose.stamp_ns) return here;
-  here.covariance +=
-      vision::rotate_covariance(from->map_from_base.linear(), scale_covariance(way_between(from->at.pose, at.pose)));
+  here.covariance += since_solution(at);
   return here;
 }
 
@@ -152,17 +160,27 @@ PoseInMap LocalPoseGraph::reckoned(const OdometrySample& at) const {
   return {from.map_from_base * way, vision::compose_covariance(from.map_from_base, from.covariance, way, covariance)};
 }
 
-vision::Matrix6d LocalPoseGraph::common_covariance(const Eigen::Vector3d& position, double direction_sigma_rad) const {
-  if (const Node* const last = last_known_pass()) return known_.at(last->landmark_id).covariance;
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  const Eigen::Vector3d way = position - nodes_.front().map_from_base.translation();
-  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(way);
-  // A direction error also shortens the distance along the path: by 1 - cos.
+vision::Matrix6d LocalPoseGraph::common_covariance(const OdometrySample& at) const {
+  const Eigen::Vector3d position = reckoned(at).map_from_base.translation();
+  if (const Node* const pass = next_on_way(at, [&](const Node& node) { return is_known_pass(node); })) {
+    const KnownLandmark& known = known_.at(pass->landmark_id);
+    // Landmarks side by side are turned alike: however many were seen, what comes is turned about them.
+    vision::Matrix6d turned = vision::Matrix6d::Identity();
+    turned.topRightCorner<3, 3>() = -vision::skew(position - known.map_from_base.translation());
+    return turned * known.covariance * turned.transpose() + since_known(at);
+  }
   const double scale_sigma = enu_ ? 0.0 : scale_sigma_;  // with satellites it is part of the graph
-  const double length_sigma = std::hypot(scale_sigma, 0.5 * direction_sigma_rad * direction_sigma_rad);
-  covariance.topLeftCorner<3, 3>() = length_sigma * length_sigma * way * way.transpose() +
-                                     direction_sigma_rad * direction_sigma_rad * across * across.transpose();
-  return covariance;
+  return way_covariance_of(position - nodes_.front().map_from_base.translation(), scale_sigma, direction_sigma_rad_);
+}
+
+vision::Matrix6d LocalPoseGraph::since_known(const OdometrySample& at) const {
+  // Satellites whose frame has a known pose in the map show the direction, too.
+  const bool do_fixes_tell = enu_ && enu_->known;
+  const Node* const from =
+      next_on_way(at, [&](const Node& node) { return is_known_pass(node) || (do_fixes_tell && node.fix); });
+  if (from == nullptr) return vision::Matrix6d::Zero();
+  const Eigen::Vector3d way = from->map_from_base.linear() * way_between(from->at.pose, at.pose).translation();
+  return way_covariance_of(way, enu_ ? 0.0 : scale_sigma_, direction_sigma_rad_);
 }
 
 void LocalPoseGraph::place(const Eigen::Isometry3d& map_from_former_map) {
@@ -217,13 +235,22 @@ const LocalPoseGraph::Node* LocalPoseGraph::landmark_node(std::uint32_t id) cons
   return found == nodes_.end() ? nullptr : &*found;
 }
 
-const LocalPoseGraph::Node* LocalPoseGraph::last_known_pass() const {
-  const Node* last = nullptr;
+/// Of the nodes that meet a condition, the last one before or the first one after a pose, by the path between.
+template <class Condition>
+const LocalPoseGraph::Node* LocalPoseGraph::next_on_way(const OdometrySample& at, Condition&& condition) const {
+  const Node* before = nullptr;
+  const Node* after = nullptr;
   for (const auto& node : nodes_) {
-    if (!node.is_pass || !known_.contains(node.landmark_id)) continue;
-    if (last == nullptr || node.at.pose.stamp_ns > last->at.pose.stamp_ns) last = &node;
+    if (node.is_of_earlier_day || !condition(node)) continue;
+    const std::int64_t stamp_ns = node.at.pose.stamp_ns;
+    if (stamp_ns <= at.pose.stamp_ns) {
+      if (before == nullptr || stamp_ns > before->at.pose.stamp_ns) before = &node;
+    } else if (after == nullptr || stamp_ns < after->at.pose.stamp_ns) {
+      after = &node;
+    }
   }
-  return last;
+  if (before == nullptr || after == nullptr) return before != nullptr ? before : after;
+  return at.way_m - before->at.way_m <= after->at.way_m - at.way_m ? before : after;
 }
 
 /// The last node of this journey up to a time, else its first node.

@@ -183,11 +183,13 @@ const LocalPoseGraph::Node* LocalPoseGraph::solved_node() const {
   return last != nodes_.end() ? &*last : nullptr;
 }
 
-/// Covariance that a way gains by the scale, in the axes of its begin.
-vision::Matrix6d LocalPoseGraph::scale_covariance(const Eigen::Isometry3d& way) const {
+/// Covariance, in the map, that the way from the latest solution with satellites gains by the scale.
+vision::Matrix6d LocalPoseGraph::since_solution(const OdometrySample& at) const {
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  const double sigma = enu_ ? scale_.sigma : scale_sigma_;
-  covariance.topLeftCorner<3, 3>() = sigma * sigma * way.translation() * way.translation().transpose();
+  const Node* const from = solved_node();
+  if (from == nullptr || at.pose.stamp_ns < from->at.pose.stamp_ns) return covariance;
+  const Eigen::Vector3d way = from->map_from_base.linear() * way_between(from->at.pose, at.pose).translation();
+  covariance.topLeftCorner<3, 3>() = scale_.sigma * scale_.sigma * way * way.transpose();
   return covariance;
 }
 
@@ -204,8 +206,12 @@ PoseInMap LocalPoseGraph::in_enu(const OdometrySample& at) const {
   const Eigen::Isometry3d enu_from_node = enu_from_map * from.map_from_base;
   const Eigen::Isometry3d way = way_between(from.at.pose, at.pose);
   const bool is_back = at.pose.stamp_ns < from.at.pose.stamp_ns;
-  const vision::Matrix6d gained = is_back ? vision::Matrix6d(vision::Matrix6d::Zero())
-                                          : vision::Matrix6d(way_covariance(from.at, at) + scale_covariance(way));
+  vision::Matrix6d gained = vision::Matrix6d::Zero();
+  if (!is_back) {
+    const Eigen::Vector3d length = way.translation();
+    gained = way_covariance(from.at, at);
+    gained.topLeftCorner<3, 3>() += scale_.sigma * scale_.sigma * length * length.transpose();
+  }
   return {enu_from_node * way,
           vision::compose_covariance(enu_from_node, vision::rotate_covariance(enu_from_map.linear(), in_map_axes), way,
                                      gained)};

@@ -21,6 +21,13 @@ constexpr double kUnknownYaw_rad = 3.0;
 constexpr double kMistakenFor_s = 5.0;  // larger shifts between two times are unambiguous
 constexpr double kAtStart_m = 10.0;     // a loaded map may arrive late within this path, as its process starts as well
 
+vision::Matrix6d anywhere() {
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  covariance.topLeftCorner<3, 3>() = kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();
+  covariance(5, 5) = kUnknownYaw_rad * kUnknownYaw_rad;
+  return covariance;
+}
+
 }  // namespace
 
 std::string to_text(State state) {
@@ -87,6 +94,7 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
     if (!unreliable_since_ns_) unreliable_since_ns_ = odometry.stamp_ns;
     doubtful_ns_ = odometry.stamp_ns;
   }
+  graph_.set_direction_sigma(check_.direction_sigma_rad());
   latest_ = localized(chain_.latest());
   return {.is_taken = true, .has_begun_anew = taken.is_new_origin, .reason = {}};
 }
@@ -164,7 +172,8 @@ bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
 std::vector<KnownLandmark> Localizer::landmarks() const {
   auto landmarks = graph_.landmarks();
   for (auto& landmark : landmarks) {
-    if (!graph_.is_known(landmark.id)) landmark.covariance += common_covariance(landmark.map_from_base.translation());
+    if (graph_.is_known(landmark.id)) continue;
+    landmark.covariance += is_located_ ? graph_.common_covariance(landmark.id) : anywhere();
   }
   return landmarks;
 }
@@ -209,19 +218,9 @@ LocalizedPose Localizer::localized(const OdometrySample& at) const {
 
 PoseInMap Localizer::expected(const OdometrySample& at) const {
   auto here = graph_.carried(at);
-  here.covariance += common_covariance(here.map_from_base.translation());
+  // Errors common to all poses of the journey, which sightings of its own landmarks do not reveal.
+  here.covariance += is_located_ ? graph_.common_covariance(at) : anywhere();
   return here;
-}
-
-/// Errors common to all poses of the journey, which sightings of its own landmarks do not reveal.
-vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) const {
-  if (is_located_) {
-    return graph_.common_covariance(position, check_.direction_sigma_rad());
-  }
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  covariance.topLeftCorner<3, 3>() = kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();
-  covariance(5, 5) = kUnknownYaw_rad * kUnknownYaw_rad;
-  return covariance;
 }
 
 void Localizer::set_state(LocalizedPose& pose) const {

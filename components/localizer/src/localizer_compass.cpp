@@ -86,6 +86,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& received) {
   azimuth_ns_ = to_ns;
   pending_yaw_correction_rad_ += vision::wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
   graph_.refresh(chain_, std::min(from_ns, unsure_since_ns.value_or(from_ns)));
+  graph_.set_direction_sigma(check_.direction_sigma_rad());
   latest_ = localized(chain_.latest());
   if (wrong == Wrong::kPanoramas) return AzimuthUse::kDoubted;
   return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;

@@ -137,7 +137,8 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
   const bool is_placed = is_joined_ || !graph_.is_known(sighting.landmark_id);
   double off_m = 0.0;
   if (is_placed) {
-    const auto here = graph_.carried(at);
+    auto here = graph_.carried(at);
+    if (graph_.is_known(sighting.landmark_id)) here.covariance += graph_.since_known(at);
     const vision::Vector6d error = vision::pose_error(here.map_from_base, measured);
     const vision::Matrix6d spread =
         here.covariance + vision::compose_covariance(landmark.map_from_base, landmark.covariance,

@@ -51,16 +51,18 @@ TEST(LocalPoseGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
   EXPECT_LT(here.map_from_base.translation().norm(), 0.3);
 }
 
+/// On the way of a straight journey.
+OdometrySample at_metre(double x_m) {
+  OdometrySample sample;
+  sample.way_m = x_m;
+  sample.pose = {static_cast<std::int64_t>(x_m * 1e8), at_x(x_m), variance(0.01 * std::sqrt(x_m)), true};
+  return sample;
+}
+
 /// A journey of 250 landmarks 10 m apart, with a sighting of the 200th at its end.
 TEST(LocalPoseGraph, RenewsTheCovariancesNearTheVehicleInALargeMap) {
   constexpr int kLandmarks = 250;
   LocalPoseGraph graph(0.01, 0.001, 0.0, {});
-  const auto at_metre = [](double x_m) {
-    OdometrySample sample;
-    sample.way_m = x_m;
-    sample.pose = {static_cast<std::int64_t>(x_m * 1e8), at_x(x_m), variance(0.01 * std::sqrt(x_m)), true};
-    return sample;
-  };
   graph.start(at_metre(0.0));
   for (int i = 1; i <= kLandmarks; ++i) graph.add_built(static_cast<std::uint32_t>(i), 0, at_metre(10.0 * i));
   const auto sigma_m = [&](std::uint32_t id) { return std::sqrt(graph.landmark(id)->covariance(0, 0)); };
@@ -76,19 +78,57 @@ TEST(LocalPoseGraph, RenewsTheCovariancesNearTheVehicleInALargeMap) {
   EXPECT_EQ(sigma_m(20), far_m);           // of another part of the map
 }
 
-TEST(LocalPoseGraph, KnowsWhatTheScaleAddsAfterTheLastStoredLandmark) {
-  constexpr double kScaleSigma = 0.002, kWay_m = 1000.0;
-  LocalPoseGraph graph(0.01, 0.001, kScaleSigma, {});
-  graph.start({});
-  graph.add_known({1, -1, at_x(0.0), variance(0.05)});
-  ASSERT_TRUE(graph.add_pass(sighting_in_lap(1), in_lap(1), 20.0));
-  ASSERT_TRUE(graph.solve());
-  OdometrySample there = in_lap(1);
-  const auto here = graph.carried(there);
-  there.pose.stamp_ns += 1'000'000'000;
-  there.pose.odom_from_base = there.pose.odom_from_base * at_x(kWay_m);
-  const vision::Matrix6d gained = graph.carried(there).covariance - here.covariance;
-  EXPECT_NEAR(std::sqrt(gained(0, 0)), kScaleSigma * kWay_m, 0.01);
+/// A straight journey past stored landmarks, each of which tells where it is to 0.01 m and 0.01 rad.
+class PastStoredLandmarks : public testing::Test {
+ protected:
+  PastStoredLandmarks() {
+    graph.start(at_metre(0.0));
+    graph.set_direction_sigma(kDirectionSigma_rad);
+  }
+
+  void pass(std::uint32_t id, double x_m) {
+    graph.add_known({id, -1, at_x(x_m), variance(kMapSigma)});
+    LandmarkSighting sighting;
+    sighting.stamp_ns = at_metre(x_m).pose.stamp_ns;
+    sighting.landmark_id = id;
+    sighting.covariance = variance(0.001);
+    ASSERT_TRUE(graph.add_pass(sighting, at_metre(x_m), 20.0));
+    ASSERT_TRUE(graph.solve());
+  }
+
+  double common_sigma_m(double x_m, Eigen::Index axis) const {
+    return std::sqrt(graph.common_covariance(at_metre(x_m))(axis, axis));
+  }
+
+  static constexpr double kScaleSigma = 0.002, kDirectionSigma_rad = 0.005, kMapSigma = 0.01;
+  LocalPoseGraph graph{0.01, 0.001, kScaleSigma, {}};
+};
+
+TEST_F(PastStoredLandmarks, ScaleDirectionAndTheHeadingOfTheMapCountFromTheLastOne) {
+  pass(1, 100.0);
+  pass(2, 200.0);
+  EXPECT_NEAR(common_sigma_m(200.0, 0), kMapSigma, 1e-3);
+  EXPECT_NEAR(common_sigma_m(1200.0, 0), 1000.0 * kScaleSigma, 0.1);
+  EXPECT_NEAR(common_sigma_m(1200.0, 1), 1000.0 * std::hypot(kDirectionSigma_rad, kMapSigma), 0.1);
+}
+
+TEST_F(PastStoredLandmarks, ALandmarkOfThisJourneyIsKnownByTheNextOfThem) {
+  pass(1, 100.0);
+  graph.add_built(7, at_metre(120.0).pose.stamp_ns, at_metre(120.0));
+  pass(2, 2000.0);
+  EXPECT_LT(std::sqrt(graph.common_covariance(7)(1, 1)), 0.5);
+  graph.add_built(8, at_metre(1900.0).pose.stamp_ns, at_metre(1900.0));
+  EXPECT_LT(std::sqrt(graph.common_covariance(8)(1, 1)), 1.5);
+}
+
+TEST_F(PastStoredLandmarks, FixesInAFrameWithAKnownPlaceShowTheDirectionToo) {
+  pass(1, 100.0);
+  EXPECT_GT(graph.since_known(at_metre(1100.0))(1, 1), 0.0);
+  graph.set_enu(at_x(0.0), variance(0.001));
+  GnssFix fix;
+  fix.enu_m.x() = 1100.0;
+  graph.add_fix(fix, at_metre(1100.0));
+  EXPECT_EQ(graph.since_known(at_metre(1100.0))(1, 1), 0.0);
 }
 
 TEST(LocalPoseGraph, SaysWhereItCannotBeSolved) {

@@ -53,6 +53,8 @@ class LocalPoseGraph {
 
   void start(const OdometrySample& at);
   void set_turn_errors(const TurnErrors& errors) { turn_errors_ = errors; }
+  /// Standard deviation of the direction of the odometry's path relative to the vehicle.
+  void set_direction_sigma(double sigma_rad) { direction_sigma_rad_ = sigma_rad; }
   bool has_started() const noexcept { return !nodes_.empty(); }
   /// Number of nodes: start, landmarks, passes.
   std::size_t size() const noexcept { return nodes_.size(); }
@@ -92,14 +94,21 @@ class LocalPoseGraph {
   /// Landmarks of this journey and those of earlier journeys that were seen, by ascending id.
   std::vector<KnownLandmark> landmarks() const;
 
-  /// Pose in the map of an odometry pose, from the last node before it. Precondition: started. The
-  /// uncertainty of the scale counts from the last solution with satellites on, or the last pass by a landmark of an
-  /// earlier journey; before either, it is common_covariance().
+  /// Pose in the map of an odometry pose, from the last node before it. Precondition: started. With satellites, the
+  /// uncertainty of the scale counts from the last solution on.
   PoseInMap carried(const OdometrySample& at) const;
 
-  /// Error common to all poses, which the graph cannot contain: that of the earlier journeys' map, taken from its most
-  /// recently seen landmark, or else of the scale and direction of this journey relative to its start.
-  vision::Matrix6d common_covariance(const Eigen::Vector3d& position, double direction_sigma_rad) const;
+  /// Error common to all poses around one, which the graph cannot contain: that of the earlier journeys' map, as its
+  /// landmark that was passed next has it, and since_known(); or else that of the scale and direction of this journey
+  /// relative to its start.
+  vision::Matrix6d common_covariance(const OdometrySample& at) const;
+  /// The same for a landmark of this journey. Precondition: it was built.
+  vision::Matrix6d common_covariance(std::uint32_t built_id) const {
+    return common_covariance(landmark_node(built_id)->at);
+  }
+  /// What scale and direction of the odometry add on the way from where the earlier journeys' map was seen next; zero if
+  /// it was not seen.
+  vision::Matrix6d since_known(const OdometrySample& at) const;
 
   /// Moves the whole journey, its start with it, to where it is assumed to have begun.
   void move(const Eigen::Isometry3d& map_from_former_map);
@@ -151,9 +160,11 @@ class LocalPoseGraph {
   const Node* landmark_node(std::uint32_t id) const;
   const Node& anchor(std::int64_t stamp_ns) const;
   const Node* solved_node() const;
-  const Node* last_known_pass() const;
+  bool is_known_pass(const Node& node) const { return node.is_pass && known_.contains(node.landmark_id); }
+  template <class Condition>
+  const Node* next_on_way(const OdometrySample& at, Condition&& condition) const;
   PoseInMap reckoned(const OdometrySample& at) const;
-  vision::Matrix6d scale_covariance(const Eigen::Isometry3d& way) const;
+  vision::Matrix6d since_solution(const OdometrySample& at) const;
   std::vector<std::size_t> journey_order() const;
   Eigen::Isometry3d way_between(const OdometryPose& from, const OdometryPose& to) const;
   vision::Matrix6d way_covariance(const OdometrySample& from, const OdometrySample& to) const;
@@ -162,6 +173,7 @@ class LocalPoseGraph {
   double scale_sigma_;
   GnssParameters fix_parameters_;
   TurnErrors turn_errors_;
+  double direction_sigma_rad_ = 0.0;
   std::map<std::uint32_t, KnownLandmark> known_;
   std::vector<Node> nodes_;
   std::vector<std::int64_t> cuts_ns_;

@@ -190,7 +190,6 @@ class Localizer {
   LocalizedPose localized(const OdometrySample& at) const;
   void set_state(LocalizedPose& pose) const;
   PoseInMap expected(const OdometrySample& at) const;
-  vision::Matrix6d common_covariance(const Eigen::Vector3d& position) const;
   Verdict judge(const LandmarkSighting& sighting, const KnownLandmark& landmark, const OdometrySample& at) const;
   Verdict judge_far(Verdict verdict, const PendingRelocalization& now, bool is_confirmed) const;
   void take(const Verdict& verdict);
