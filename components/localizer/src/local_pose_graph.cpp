@@ -137,7 +137,9 @@ std::vector<KnownLandmark> LocalPoseGraph::landmarks() const {
   for (const auto& node : nodes_) {
     if (node.landmark_id == 0 || node.is_pass) continue;
     // Errors of landmarks of one earlier journey are correlated: seeing several does not reduce them.
-    const auto& covariance = node.is_of_earlier_day ? known_.at(node.landmark_id).covariance : node.covariance;
+    const vision::Matrix6d covariance = node.is_of_earlier_day
+                                            ? known_.at(node.landmark_id).covariance
+                                            : vision::Matrix6d(node.covariance + since_solution(node.at));
     all.push_back({node.landmark_id, node.at.pose.stamp_ns, node.map_from_base, covariance});
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
