@@ -8,6 +8,7 @@
 #include "panvo/binocular_odometry/tracking_stage.hpp"
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/image.hpp"
+#include "panvo/conversions/lasting_calibration.hpp"
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_listener.hpp"
@@ -69,20 +70,32 @@ class BinocularOdometryComponent final : public runtime::Component {
     std::shared_ptr<const StereoRig> rig;
   };
 
-  struct Camera {
+  struct Calibration {
     std::string frame_id;
-    std::optional<conversions::PairedCamera> camera;
+    conversions::PairedCamera camera;
+    bool operator==(const Calibration& other) const { return camera == other.camera; }
   };
+  using Camera = conversions::LastingCalibration<Calibration>;
 
   void on_camera(Camera& camera, const sensor_msgs::msg::CameraInfo& info,
                  const interfaces::Topic<sensor_msgs::msg::CameraInfo>& topic) {
     const auto read = conversions::to_camera(info);
     if (!read) return context_.log().warn_throttled(topic.name, "{} {}", context_.resolved_name(topic), read.reason());
-    if (tracking_ && !(*camera.camera == *read)) tracking_.reset();
-    camera = {info.header().frame_id(), *read};
+    if (!camera.add({info.header().frame_id(), *read})) return;
+    context_.log().warn(
+        "{} alternates between two calibrations: two publishers disagree. The one in use stays; stop one of "
+        "them, or remap its topic",
+        context_.resolved_name(topic));
   }
 
   void on_images(const sensor_msgs::msg::Image& left, const sensor_msgs::msg::Image& right) {
+    for (auto [camera, image] : {std::pair(&left_, &left), std::pair(&right_, &right)}) {
+      const auto fits = [&size = *image](const Calibration& one) {
+        return static_cast<int>(size.width()) == one.camera.rectified.width &&
+               static_cast<int>(size.height()) == one.camera.rectified.height;
+      };
+      if (camera->add_image(fits)) tracking_.reset();
+    }
     if (!tracking_ && !begin_tracking()) return;
     const auto left_grey = conversions::grey(left);
     const auto right_grey = conversions::grey(right);
@@ -122,23 +135,24 @@ class BinocularOdometryComponent final : public runtime::Component {
 
   /// Begins once both cameras and the pose of the left one are known; otherwise logs what is missing.
   bool begin_tracking() {
-    if (!left_.camera || !right_.camera) {
-      const auto& missing = left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo;
+    const auto &left = left_.used(), &right = right_.used();
+    if (!left || !right) {
+      const auto& missing = left ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo;
       context_.log().warn_throttled("no calibration", "images received, but no valid calibration on {} yet",
                                     context_.resolved_name(missing));
       return false;
     }
-    const auto stereo = conversions::to_stereo(*left_.camera, *right_.camera);
+    const auto stereo = conversions::to_stereo(left->camera, right->camera);
     if (!stereo) {
       context_.log().warn_throttled("no stereo pair", "{} and {} do not form a stereo pair: {}",
                                     context_.resolved_name(topics::kStereoLeftCameraInfo),
                                     context_.resolved_name(topics::kStereoRightCameraInfo), stereo.reason());
       return false;
     }
-    const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left_.frame_id,
+    const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left->frame_id,
                                                        "publish the pose of the left camera on the vehicle");
     if (!base_from_raw_left) return false;
-    const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
+    const Eigen::Isometry3d raw_from_rectified(left->camera.rectified_from_raw.transpose());
     auto rig = std::make_shared<const StereoRig>(StereoRig{*stereo, *base_from_raw_left * raw_from_rectified});
     tracking_.emplace(Tracking{TrackingStage(*stereo, parameters_, &timer_), std::move(rig)});
     if (was_tracking_) {

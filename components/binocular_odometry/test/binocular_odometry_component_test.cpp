@@ -244,6 +244,44 @@ TEST_F(BinocularOdometryComponent, GoesOnWithAnotherCalibrationAndMounting) {
   EXPECT_EQ(lines_with("tracking restarts with the new calibration"), 1);
 }
 
+TEST_F(BinocularOdometryComponent, GoesOnWithAnotherCalibrationThatLasts) {
+  load();
+  publish_infos();
+  publish_mounting();
+  publish_pair(SyntheticScene::frame(0));
+  vision::RectifiedStereo longer = SyntheticScene::stereo();
+  longer.baseline_m *= 1.5;
+  publish_infos(longer);  // once, as of a driver that keeps it for late readers
+  for (int i = 1; i < 5; ++i) publish_pair(SyntheticScene::frame(i));
+  EXPECT_EQ(lines_with("tracking restarts with the new calibration"), 0);
+  for (int i = 5; i < 10; ++i) publish_pair(SyntheticScene::frame(i));
+  EXPECT_EQ(lines_with("tracking restarts with the new calibration"), 1);
+  ASSERT_THAT(odometry_, SizeIs(10));
+  EXPECT_TRUE(quality_.back()->reliable()) << quality_.back()->reason();
+  EXPECT_NEAR(odometry_.back()->twist().twist().linear().x(), 1.5 * 1.2, 0.05);
+}
+
+TEST_F(BinocularOdometryComponent, KeepsTheCalibrationIfTwoPublishersDisagree) {
+  load();
+  publish_mounting();
+  vision::RectifiedStereo longer = SyntheticScene::stereo();
+  longer.baseline_m *= 1.5;
+  constexpr int kFrames = 12;
+  for (int i = 0; i < kFrames; ++i) {
+    if (i > 0) publish_infos(longer);
+    if (i % 2 == 0) publish_infos();
+    publish_pair(SyntheticScene::frame(i));
+  }
+  ASSERT_THAT(odometry_, SizeIs(kFrames));
+  for (int i = 1; i < kFrames; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    EXPECT_TRUE(quality_[at]->reliable()) << i << ": " << quality_[at]->reason();
+    EXPECT_NEAR(odometry_[at]->twist().twist().linear().x(), 1.2, 0.03) << i;
+  }
+  EXPECT_EQ(lines_with("/stereo/right/camera_info alternates between two calibrations: two publishers disagree"), 1);
+  EXPECT_EQ(lines_with("tracking restarts"), 0);
+}
+
 TEST_F(BinocularOdometryComponent, APairThatComesLateHasItsQualityButNoPose) {
   load();
   publish_infos();

@@ -11,6 +11,7 @@
 
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/image.hpp"
+#include "panvo/conversions/lasting_calibration.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
@@ -79,10 +80,12 @@ class StereoPlacesComponent final : public runtime::Component {
   static constexpr std::size_t kMaxWaiting = 10;    // pairs waiting for odometry
   static constexpr double kUnlocated_m = 50.0;      // less certain positions do not restrict the search
 
-  struct Camera {
+  struct Calibration {
     std::string frame_id;
-    std::optional<conversions::PairedCamera> camera;
+    conversions::PairedCamera camera;
+    bool operator==(const Calibration& other) const { return camera == other.camera; }
   };
+  using Camera = conversions::LastingCalibration<Calibration>;
   struct Odometry {
     std::int64_t stamp_ns;
     Eigen::Isometry3d odom_from_base;
@@ -101,7 +104,7 @@ class StereoPlacesComponent final : public runtime::Component {
                  const interfaces::Topic<sensor_msgs::msg::CameraInfo>& topic) {
     const auto read = conversions::to_camera(info);
     if (!read) return context_.log().warn_throttled(topic.name, "{} {}", context_.resolved_name(topic), read.reason());
-    camera = {info.header().frame_id(), *read};
+    camera.add({info.header().frame_id(), *read});  // the odometry reports publishers that disagree
   }
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
@@ -165,6 +168,12 @@ class StereoPlacesComponent final : public runtime::Component {
   }
 
   void on_images(const ImagePtr& left, const ImagePtr& right) {
+    for (auto [camera, image] : {std::pair(&left_, left.get()), std::pair(&right_, right.get())}) {
+      camera->add_image([&size = *image](const Calibration& one) {
+        return static_cast<int>(size.width()) == one.camera.rectified.width &&
+               static_cast<int>(size.height()) == one.camera.rectified.height;
+      });
+    }
     waiting_.push_back({left, right});
     work_off();
     if (waiting_.size() <= kMaxWaiting) return;
@@ -191,7 +200,7 @@ class StereoPlacesComponent final : public runtime::Component {
 
   void step(const Pair& pair, const Odometry& odometry) {
     if (!places_ && !make_places()) return;
-    if (!(*left_.camera == used_->first && *right_.camera == used_->second)) {
+    if (!(*left_.used() == used_->first && *right_.used() == used_->second)) {
       return context_.log().warn_throttled("calibration changed",
                                            "{} or {} changed while running: no places; restart panvo",
                                            context_.resolved_name(topics::kStereoLeftCameraInfo),
@@ -242,15 +251,16 @@ class StereoPlacesComponent final : public runtime::Component {
   }
 
   bool make_places() {
-    if (!left_.camera || !right_.camera) return false;  // the odometry reports it
-    const auto stereo = conversions::to_stereo(*left_.camera, *right_.camera);
+    const auto &left = left_.used(), &right = right_.used();
+    if (!left || !right) return false;  // the odometry reports it
+    const auto stereo = conversions::to_stereo(left->camera, right->camera);
     if (!stereo) return false;  // likewise
-    const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left_.frame_id,
+    const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left->frame_id,
                                                        "publish the pose of the left camera on the vehicle");
     if (!base_from_raw_left) return false;
-    const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
+    const Eigen::Isometry3d raw_from_rectified(left->camera.rectified_from_raw.transpose());
     size_ = {stereo->camera.width, stereo->camera.height};
-    used_ = {*left_.camera, *right_.camera};
+    used_ = {*left, *right};
     places_.emplace(parameters_, *stereo, *base_from_raw_left * raw_from_rectified, keypoints_, &timer_);
     take_early();
     return true;
@@ -270,7 +280,7 @@ class StereoPlacesComponent final : public runtime::Component {
   Camera left_, right_;
   cv::Size size_;
   std::optional<StereoPlaces> places_;
-  std::optional<std::pair<conversions::PairedCamera, conversions::PairedCamera>> used_;  // for places_
+  std::optional<std::pair<Calibration, Calibration>> used_;  // for places_
   std::vector<landmarks::PanoramicLandmark> early_;
   std::uint32_t last_skipped_id_ = 0;  // the largest one
   vision::StampSequence stamps_;       // of the odometry

@@ -150,17 +150,33 @@ TEST_F(StereoPlacesComponent, PausesWhileTheCalibrationIsAnother) {
   load();
   publish_cameras();
   drive(0.0, 2.0);
-  const auto before = matches.size();
-  ASSERT_GT(before, 0U);
   vision::RectifiedStereo other = Street::stereo();
   other.baseline_m *= 1.5;
   publish_cameras(other);
-  drive(3.0, 5.0);
+  drive(3.0, 6.0);  // four pairs: it is another one from the fifth on
+  const auto before = matches.size();
+  ASSERT_GT(before, 0U);
+  drive(7.0, 9.0);
   EXPECT_EQ(matches.size(), before) << "its places would be wrong";
   EXPECT_TRUE(harness_->log_contains("changed while running: no places; restart panvo"));
   publish_cameras();
-  drive(6.0, 8.0);
+  drive(10.0, 16.0);
   EXPECT_GT(matches.size(), before);
+}
+
+TEST_F(StereoPlacesComponent, GoesOnIfTwoPublishersOfCalibrationsDisagree) {
+  load();
+  vision::RectifiedStereo other = Street::stereo();
+  other.baseline_m *= 1.5;
+  publish_cameras();
+  drive(0.0, 0.0);
+  for (int z_m = 1; z_m <= 7; ++z_m) {
+    publish_cameras(other);
+    if (z_m % 2 == 0) publish_cameras();
+    drive(z_m, z_m);
+  }
+  EXPECT_FALSE(harness_->log_contains("changed while running"));
+  EXPECT_EQ(matches.size(), 8U);
 }
 
 TEST_F(StereoPlacesComponent, DropsOdometryThatIsLate) {

@@ -12,12 +12,6 @@
 namespace panvo::stereo_rectifier {
 namespace {
 
-bool describes_the_same(const sensor_msgs::msg::CameraInfo& a, const sensor_msgs::msg::CameraInfo& b) {
-  return a.width() == b.width() && a.height() == b.height() && a.k() == b.k() && a.d() == b.d() && a.r() == b.r() &&
-         a.p() == b.p() && a.distortion_model() == b.distortion_model() && a.binning_x() == b.binning_x() &&
-         a.binning_y() == b.binning_y() && a.roi() == b.roi();
-}
-
 /// The camera of a camera_info, if CameraModel accepts its lens.
 conversions::Result<conversions::PairedCamera> usable_camera(const sensor_msgs::msg::CameraInfo& info) {
   const auto camera = conversions::to_camera(info);
@@ -34,13 +28,32 @@ bool is_grey(const sensor_msgs::msg::Image& image) { return image.encoding() == 
 
 }  // namespace
 
-EyeRectifier::Change EyeRectifier::set_camera(const sensor_msgs::msg::CameraInfo& info) {
-  if (camera_ && describes_the_same(info, info_)) return Change::kNone;
-  const auto change = camera_ ? Change::kChanged : Change::kFirst;
-  info_ = info;
-  camera_ = usable_camera(info);
+EyeRectifier::Info EyeRectifier::add_info(const sensor_msgs::msg::CameraInfo& info) {
+  sensor_msgs::msg::CameraInfo received = info;
+  received.header({});
+  const auto before = infos_.used();
+  // Nothing is lost by leaving one that cannot be used.
+  const bool is_remedy = camera_ && !*camera_ && usable_camera(received);
+  if (is_remedy) infos_.set(received);
+  const bool is_disputed = !is_remedy && infos_.add(received);
+  if (is_disputed) return Info::kDisputed;
+  if (infos_.used() == before) return Info::kKnown;
+  use_info();
+  return Info::kTaken;
+}
+
+bool EyeRectifier::add_image(const sensor_msgs::msg::Image& raw) {
+  const auto fits = [&](const sensor_msgs::msg::CameraInfo& info) {
+    return info.width() == raw.width() && info.height() == raw.height();
+  };
+  if (!infos_.add_image(fits)) return false;
+  use_info();
+  return true;
+}
+
+void EyeRectifier::use_info() {
+  camera_ = usable_camera(*infos_.used());
   map_.reset();
-  return change;
 }
 
 conversions::Result<EyeRectifier::ImagePtr> EyeRectifier::rectify(const ImagePtr& raw) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "panvo/conversions/camera_info.hpp"
+#include "panvo/conversions/lasting_calibration.hpp"
 #include "panvo/conversions/result.hpp"
 #include "panvo/vision/rectification.hpp"
 #include "sensor_msgs/msg/CameraInfo.h"
@@ -24,10 +25,11 @@ class EyeRectifier {
 
   explicit EyeRectifier(Output output) : output_(output) {}
 
-  enum class Change { kNone, kFirst, kChanged };
-  /// Sets the camera_info received with each image; its header is ignored. Returns whether it differs from the last
-  /// one.
-  Change set_camera(const sensor_msgs::msg::CameraInfo& info);
+  enum class Info { kKnown, kTaken, kDisputed };
+  /// Adds a camera_info; its header is ignored. kTaken: it is used from now on. kDisputed, once: two publishers disagree.
+  Info add_info(const sensor_msgs::msg::CameraInfo& info);
+  /// To be called with each raw image, before rectify(). Whether another camera_info is used from this image on.
+  bool add_image(const sensor_msgs::msg::Image& raw);
 
   /// The camera, or why its camera_info is invalid; nullopt before the first camera_info.
   const std::optional<conversions::Result<conversions::PairedCamera>>& camera() const noexcept { return camera_; }
@@ -39,8 +41,10 @@ class EyeRectifier {
  private:
   conversions::Result<ImagePtr> remap(const sensor_msgs::msg::Image& raw, const conversions::PairedCamera& camera);
 
+  void use_info();
+
   Output output_;
-  sensor_msgs::msg::CameraInfo info_;
+  conversions::LastingCalibration<sensor_msgs::msg::CameraInfo> infos_;  // without headers
   std::optional<conversions::Result<conversions::PairedCamera>> camera_;
   std::optional<vision::RectificationMap> map_;  ///< created with the first image that needs it
 };

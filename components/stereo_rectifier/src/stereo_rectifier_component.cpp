@@ -55,15 +55,16 @@ class StereoRectifierComponent final : public runtime::Component {
   };
 
   void on_info(Eye& eye, const sensor_msgs::msg::CameraInfo& info) {
-    const auto change = eye.rectifier.set_camera(info);
-    if (change == EyeRectifier::Change::kNone) return;
-    if (change == EyeRectifier::Change::kChanged) {
-      context_.log().warn_throttled(
-          eye.info_topic.name,
-          "{} changed while running; the new calibration is used from now on. Restart if the camera was moved or "
-          "replaced",
-          context_.resolved_name(eye.info_topic));
-    }
+    const auto use = eye.rectifier.add_info(info);
+    if (use == EyeRectifier::Info::kTaken) check_pair();
+    if (use != EyeRectifier::Info::kDisputed) return;
+    context_.log().warn(
+        "{} alternates between two calibrations: two publishers disagree. The one in use stays; stop one of "
+        "them, or remap its topic",
+        context_.resolved_name(eye.info_topic));
+  }
+
+  void check_pair() {
     pair_problem_.clear();
     const auto& left = left_.rectifier.camera();
     const auto& right = right_.rectifier.camera();
@@ -73,6 +74,14 @@ class StereoRectifierComponent final : public runtime::Component {
   }
 
   void on_image(Eye& eye, const std::shared_ptr<const sensor_msgs::msg::Image>& raw) {
+    if (eye.rectifier.add_image(*raw)) {
+      context_.log().warn_throttled(
+          eye.info_topic.name,
+          "{} changed while running; the new calibration is used from now on. Restart if the camera was moved or "
+          "replaced",
+          context_.resolved_name(eye.info_topic));
+      check_pair();
+    }
     if (!eye.rectifier.camera()) {
       // Drivers may publish images before the first camera_info.
       constexpr int kPatience = 10;

@@ -50,7 +50,7 @@ Infos rectified_infos() {
 
 EyeRectifier rectifier_of(const sensor_msgs::msg::CameraInfo& info, Output output = Output::kMono8) {
   EyeRectifier rectifier(output);
-  rectifier.set_camera(info);
+  rectifier.add_info(info);
   return rectifier;
 }
 
@@ -210,11 +210,11 @@ TEST(EyeRectifier, KeepsStampFrameAndEncoding) {
 TEST(EyeRectifier, TellsAChangeOfTheCameraFromANewHeader) {
   auto info = rectified_infos().left;
   EyeRectifier rectifier(Output::kMono8);
-  EXPECT_EQ(rectifier.set_camera(info), EyeRectifier::Change::kFirst);
+  EXPECT_EQ(rectifier.add_info(info), EyeRectifier::Info::kTaken);
   info.header().stamp().sec(5);
-  EXPECT_EQ(rectifier.set_camera(info), EyeRectifier::Change::kNone);
+  EXPECT_EQ(rectifier.add_info(info), EyeRectifier::Info::kKnown);
   info.k()[2] += 1.0;
-  EXPECT_EQ(rectifier.set_camera(info), EyeRectifier::Change::kChanged);
+  EXPECT_EQ(rectifier.add_info(info), EyeRectifier::Info::kTaken);
 }
 
 TEST(EyeRectifier, SaysWhyAnImageCannotBeRectified) {

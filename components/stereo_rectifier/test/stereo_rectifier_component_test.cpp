@@ -122,10 +122,50 @@ TEST_F(StereoRectifier, SaysThatACameraChanged) {
   publish_left_image(1);
   calibration_.left.pinhole.cx += 1.0;
   publish_infos();
-  publish_left_image(2);
+  for (int i = 2; i < 6; ++i) publish_left_image(i);
+  EXPECT_FALSE(harness_.log_contains("changed while running"));
+  publish_left_image(6);
   EXPECT_TRUE(harness_.log_contains("stereo/left/camera_info changed while running"));
-  ASSERT_THAT(left_rect_, SizeIs(2));
+  EXPECT_THAT(left_rect_, SizeIs(6));
   EXPECT_THAT(right_rect_, IsEmpty());
+}
+
+TEST_F(StereoRectifier, TakesTheCameraOfImagesOfAnotherSizeAtOnce) {
+  load();
+  publish_infos();
+  publish_left_image(1);
+  calibration_.left.pinhole = calibration_.right.pinhole = rectified_.camera = {25, 25, 16, 24, kWidth / 2, kHeight};
+  publish_infos();
+  publish_left_image(2, kWidth / 2);
+  EXPECT_THAT(left_rect_, SizeIs(2));
+}
+
+TEST_F(StereoRectifier, KeepsTheCalibrationIfTwoPublishersDisagree) {
+  load();
+  const auto first = calibration_;
+  auto other = calibration_;
+  other.left.distortion[0] = -0.2;
+  for (int i = 0; i < 20; ++i) {
+    calibration_ = i % 2 == 0 ? first : other;
+    publish_infos();
+    const auto raw = publish_left_image(i);
+    ASSERT_THAT(left_rect_, SizeIs(i + 1));
+    EXPECT_EQ(left_rect_.back().get(), raw.get()) << "another image, rectified by the other calibration";
+  }
+  EXPECT_TRUE(
+      harness_.log_contains("/stereo/left/camera_info alternates between two calibrations: two publishers disagree"));
+  EXPECT_EQ(warnings(), 1u);
+}
+
+TEST_F(StereoRectifier, LeavesACalibrationThatIsNoneAtOnce) {
+  load();
+  publish_infos();
+  harness_.publish(topics::kStereoLeftCameraInfo, sensor_msgs::msg::CameraInfo());
+  publish_left_image(1);
+  EXPECT_THAT(left_rect_, IsEmpty());
+  publish_infos();
+  publish_left_image(2);
+  EXPECT_THAT(left_rect_, SizeIs(1));
 }
 
 TEST_F(StereoRectifier, KnowsItsParameters) {
