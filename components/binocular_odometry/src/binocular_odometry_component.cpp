@@ -63,11 +63,13 @@ class BinocularOdometryComponent final : public runtime::Component {
 
  private:
   static constexpr double kStaleCalibration_px = 1.0;  // a good calibration has a few tenths
+  static constexpr double kSameMount = 0.001;          // m and rad: mounts are not measured better
 
   /// Created once the cameras are known, and anew when they change.
   struct Tracking {
     TrackingStage stage;
     std::shared_ptr<const StereoRig> rig;
+    Eigen::Isometry3d base_from_raw_left;
   };
 
   struct Calibration {
@@ -97,6 +99,7 @@ class BinocularOdometryComponent final : public runtime::Component {
       if (camera->add_image(fits)) tracking_.reset();
     }
     if (!tracking_ && !begin_tracking()) return;
+    check_mount();
     const auto left_grey = conversions::grey(left);
     const auto right_grey = conversions::grey(right);
     if (!left_grey || !right_grey) {
@@ -154,7 +157,8 @@ class BinocularOdometryComponent final : public runtime::Component {
     if (!base_from_raw_left) return false;
     const Eigen::Isometry3d raw_from_rectified(left->camera.rectified_from_raw.transpose());
     auto rig = std::make_shared<const StereoRig>(StereoRig{*stereo, *base_from_raw_left * raw_from_rectified});
-    tracking_.emplace(Tracking{TrackingStage(*stereo, parameters_, &timer_), std::move(rig)});
+    tracking_.emplace(Tracking{TrackingStage(*stereo, parameters_, &timer_), std::move(rig), *base_from_raw_left});
+    is_said_moved_ = false;
     if (was_tracking_) {
       context_.log().warn_throttled("calibration changed",
                                     "{} or {} changed while running: tracking restarts with the new calibration",
@@ -163,6 +167,16 @@ class BinocularOdometryComponent final : public runtime::Component {
     }
     was_tracking_ = true;
     return true;
+  }
+
+  /// A camera that moves on the vehicle while it drives cannot be told from one whose extrinsics were wrong before.
+  void check_mount() {
+    const auto& frame = left_.used()->frame_id;
+    const auto now = transforms_.buffer().lookup(parameters_.base_frame, frame);
+    if (is_said_moved_ || !now || vision::pose_error(tracking_->base_from_raw_left, *now).norm() < kSameMount) return;
+    is_said_moved_ = true;
+    context_.log().warn("{} has another pose of {} on {} than when tracking began: it is ignored until a restart",
+                        context_.resolved_name(topics::kTfStatic), frame, parameters_.base_frame);
   }
 
   /// Logged once, because it persists while driving.
@@ -187,7 +201,7 @@ class BinocularOdometryComponent final : public runtime::Component {
   conversions::TransformListener transforms_;
   Camera left_, right_;
   std::optional<Tracking> tracking_;
-  bool was_tracking_ = false;
+  bool was_tracking_ = false, is_said_moved_ = false;
 
   // State of the motion stage.
   VehicleMotion motion_;
