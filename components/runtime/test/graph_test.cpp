@@ -44,6 +44,11 @@ TEST_F(GraphOfATalker, LacksAllOfAParticipant) {
   EXPECT_FALSE(is_complete(graph));
 }
 
+TEST_F(GraphOfATalker, LacksNothingOfADiscoveryServer) {
+  graph.participants.emplace_back("4453005f4550524f53494d41");
+  EXPECT_TRUE(is_complete(graph));
+}
+
 TEST(GraphOfNobody, IsComplete) { EXPECT_TRUE(is_complete({})); }
 
 }  // namespace

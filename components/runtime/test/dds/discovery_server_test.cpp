@@ -12,6 +12,7 @@
 #include <cstdlib>
 
 #include "bridge_fixture.hpp"
+#include "graph_tool.hpp"
 #include "panvo/runtime/graph.hpp"
 
 extern char** environ;
@@ -107,6 +108,12 @@ TEST_F(WithDiscoveryServer, TopicsAndNodesOfOthersAreHeardOfWithoutReadingThem) 
     return has_topic && graph.nodes.size() == 1 && graph.nodes[0].writers.size() == 1;
   };
   EXPECT_TRUE(eventually(is_there));
+}
+
+TEST_F(WithDiscoveryServer, TheServerItselfIsNoParticipantWithoutItsTopics) {
+  peer.reset();
+  bridge.reset();
+  EXPECT_THAT(run_graph_tool(domain, "topic list").said, testing::Not(testing::HasSubstr("settled")));
 }
 
 }  // namespace
