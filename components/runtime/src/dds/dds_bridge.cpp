@@ -97,6 +97,7 @@ class DdsBridge final : public Bridge {
 
   std::shared_ptr<dds::Participant> participant(Role role) {
     const std::lock_guard lock(mutex_);
+    if (has_server_ && !hearing_ && !participant_) watch_server();
     if (has_server_ && role == Role::kReads) {
       if (!hearing_) hearing_ = std::make_shared<dds::Participant>(settings_, dds::Hears::kAll, discovery_, endpoints_);
       return hearing_;
@@ -104,6 +105,18 @@ class DdsBridge final : public Bridge {
     if (!participant_)
       participant_ = std::make_shared<dds::Participant>(settings_, dds::Hears::kMatching, discovery_, endpoints_);
     return participant_;
+  }
+
+  /// A server is itself a participant that the others see.
+  void watch_server() {
+    if (settings_.range == DiscoveryRange::kOff) return;
+    notifier_->post_after(kServerPatience,
+                          [discovery = std::weak_ptr(discovery_), notifier = std::weak_ptr(notifier_)] {
+                            const auto known = discovery.lock();
+                            const auto told = notifier.lock();
+                            if (known && told && known->participants().empty())
+                              told->warn(dds::silent_server_warning());
+                          });
   }
 
   const DdsSettings settings_;

@@ -15,6 +15,13 @@ void Notifier::post(std::function<void()> call) {
   post_locked(std::move(call));
 }
 
+void Notifier::post_after(std::chrono::milliseconds delay, std::function<void()> call) {
+  const std::lock_guard lock(mutex_);
+  if (stopping_) return;
+  later_.emplace(Clock::now() + delay, std::move(call));
+  wake_up_.notify_one();
+}
+
 void Notifier::post_locked(std::function<void()> call) {
   if (stopping_) return;
   calls_.push_back(std::move(call));
@@ -44,15 +51,30 @@ void Notifier::stop() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
     calls_.clear();
+    later_.clear();
     wake_up_.notify_one();
   }
   if (thread_.joinable()) thread_.join();
 }
 
+void Notifier::wait_for_call(std::unique_lock<std::mutex>& lock) {
+  while (!stopping_ && calls_.empty()) {
+    if (later_.empty()) {
+      wake_up_.wait(lock);
+    } else if (const auto first = later_.begin(); first->first <= Clock::now()) {
+      calls_.push_back(std::move(first->second));
+      later_.erase(first);
+    } else {
+      const auto due = first->first;  // it may be gone when the wait ends
+      wake_up_.wait_until(lock, due);
+    }
+  }
+}
+
 void Notifier::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_up_.wait(lock, [this] { return stopping_ || !calls_.empty(); });
+    wait_for_call(lock);
     if (stopping_) return;
     const auto call = std::move(calls_.front());
     calls_.pop_front();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <set>
 #include <string>
@@ -23,6 +25,8 @@ class Notifier {
 
   /// Runs `call` on the thread, in order of posting. An exception becomes a warning.
   void post(std::function<void()> call);
+  /// The same once `delay` has passed.
+  void post_after(std::chrono::milliseconds delay, std::function<void()> call);
 
   /// Reports each text once. Warnings before on_warning() are kept for the first callback.
   void warn(const std::string& text);
@@ -32,12 +36,16 @@ class Notifier {
   void stop();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void run();
+  void wait_for_call(std::unique_lock<std::mutex>& lock);
   void post_locked(std::function<void()> call);
 
   std::mutex mutex_;
   std::condition_variable wake_up_;
   std::deque<std::function<void()>> calls_;
+  std::multimap<Clock::time_point, std::function<void()>> later_;
   bool stopping_ = false;
 
   std::set<std::string> warned_;

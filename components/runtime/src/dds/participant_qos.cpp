@@ -188,6 +188,13 @@ void load_profiles(const DdsSettings& settings) {
 
 bool has_discovery_server() { return !servers().empty(); }
 
+std::string silent_server_warning() {
+  return fmt::format(
+      "no discovery server has answered at {} for {} s: other processes are not found. Start one there "
+      "(fast-discovery-server -i 0), or correct or unset {}",
+      environment_variable(kServersVariable), kServerPatience.count(), kServersVariable);
+}
+
 bool has_small_socket_buffers() { return max_socket_buffer() < kSocketBufferSize; }
 
 bool has_shared_memory() { return access(kSharedMemoryFolder, R_OK | W_OK | X_OK) == 0; }

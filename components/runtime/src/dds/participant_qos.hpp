@@ -40,6 +40,9 @@ enum class Hears {
 /// Whether participants meet by means of the server in ROS_DISCOVERY_SERVER.
 bool has_discovery_server();
 
+/// That the server does not answer, with the remedy.
+std::string silent_server_warning();
+
 /// QoS of a participant, from a profile or our defaults: UDP with buffers for images, ROS 2's user data, and ignoring
 /// other participants of the same process as far as Fast DDS can identify them (see own_participants.hpp).
 fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears hears);

@@ -116,5 +116,29 @@ TEST_F(WithDiscoveryServer, TheServerItselfIsNoParticipantWithoutItsTopics) {
   EXPECT_THAT(run_graph_tool(domain, "topic list").said, testing::Not(testing::HasSubstr("settled")));
 }
 
+/// An address at which no server listens.
+class WithSilentDiscoveryServer : public testing::Test {
+ protected:
+  WithSilentDiscoveryServer() { setenv("ROS_DISCOVERY_SERVER", address.c_str(), 1); }
+  ~WithSilentDiscoveryServer() override { setenv("ROS_DISCOVERY_SERVER", "", 1); }
+
+  const std::string address = "127.0.0.1:" + std::to_string(free_port());
+  Inbox<std::string> warnings;
+};
+
+TEST_F(WithSilentDiscoveryServer, AProcessSaysThatItDoesNotAnswer) {
+  const auto bridge = make_dds_bridge({.domain = test_domain(), .profiles = "", .name = "panvo_test"});
+  bridge->on_warning(warnings.callback());
+  const auto writer = bridge->open_writer(topic(unique_topic("text"), kStringType));
+  EXPECT_TRUE(warnings.wait_for([&](const std::string& text) {
+    return text.find("no discovery server has answered at " + address) != std::string::npos;
+  }));
+}
+
+TEST_F(WithSilentDiscoveryServer, ACommandSaysThatItDoesNotAnswer) {
+  EXPECT_THAT(run_graph_tool(test_domain(), "topic list").said,
+              testing::HasSubstr("no discovery server has answered at " + address));
+}
+
 }  // namespace
 }  // namespace panvo::runtime::test

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "panvo/runtime/names.hpp"
@@ -21,6 +22,13 @@ constexpr milliseconds kPollPeriod{20};
 // Participants announce themselves twice a second; endpoints and nodes follow within milliseconds.
 constexpr milliseconds kFirstLook{1200};
 constexpr milliseconds kQuiet{400};
+
+/// Without anybody there, as long as it takes to tell that a discovery server does not answer.
+milliseconds first_look(const Graph& graph) {
+  const char* server = std::getenv("ROS_DISCOVERY_SERVER");
+  const bool may_be_silent = server != nullptr && *server != '\0' && graph.participants.empty();
+  return may_be_silent ? milliseconds(kServerPatience) + kQuiet : kFirstLook;
+}
 
 }  // namespace
 
@@ -45,7 +53,7 @@ Graph Session::settled_graph() {
   Graph graph = bridge_->graph();
   while (!is_stopped()) {
     const auto now = steady_clock::now();
-    if (now - start >= kFirstLook && now - changed >= kQuiet && is_complete(graph)) break;
+    if (now - start >= first_look(graph) && now - changed >= kQuiet && is_complete(graph)) break;
     if (now - start >= timeout_) {
       std::fprintf(stderr, "panvo: discovery has not settled: something may be missing (--timeout waits longer)\n");
       break;

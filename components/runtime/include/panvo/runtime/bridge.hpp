@@ -93,6 +93,9 @@ struct Limits {
   double max_topic_rate_hz = 1000.0;           ///< per topic, averaged over about 1 s: the rate of the fastest IMUs
 };
 
+/// A discovery server that has not answered for so long is reported: it is asked twice a second.
+inline constexpr std::chrono::seconds kServerPatience{3};
+
 /// Where to look for other processes, as ROS_AUTOMATIC_DISCOVERY_RANGE of ROS 2.
 enum class DiscoveryRange : std::uint8_t {
   kOff,            ///< nowhere: nothing is exchanged with other processes
