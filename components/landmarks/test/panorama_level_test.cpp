@@ -40,7 +40,8 @@ int grey_at(const Eigen::Isometry3d& base_from_panorama, const Eigen::Vector3d& 
 }
 
 TEST(PanoramaLevel, ShowsEachDirectionWhereAnUprightCameraWould) {
-  for (const auto& camera : {mounted(30.0, 15.0, -8.0), mounted(-170.0, -20.0, 3.0), mounted(0.0, 0.0, 45.0)}) {
+  for (const auto& camera : {mounted(30.0, 15.0, -8.0), mounted(-170.0, -20.0, 3.0), mounted(0.0, 0.0, 45.0),
+                             mounted(20.0, 3.0, 180.0), mounted(-60.0, -10.0, -125.0)}) {
     PanoramaLevel level(camera);
     ASSERT_TRUE(level.is_tilted());
     EXPECT_NEAR(level.base_from_level().linear()(2, 1), -1.0, 1e-12) << "its y axis points down";

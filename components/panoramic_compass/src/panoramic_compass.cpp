@@ -22,6 +22,27 @@ constexpr int kMinColumns = 256;                       // px: below, the smalles
 constexpr double kViewTop = 0.25, kViewBottom = 0.55;  // checked rows: 45 degrees above to 9 below the horizon
 // Front, rear, left and right must be visible: else sideways motion is mistaken for a turn.
 constexpr double kMaxCovered = 1.0 / 3.0;
+// Cosine of the angle between the picture's down and the vehicle's up: beyond 120 degrees of tilt, a camera hangs. From
+// 60 to 120, it lies on its side, or the transform has other axes than those of an optical frame.
+constexpr double kHangs = 0.5;
+
+bool hangs(const Eigen::Matrix3d& base_from_panorama) { return base_from_panorama(2, 1) > kHangs; }
+
+/// Half a turn about the direction of view: of the axes, and of the picture's rows and columns.
+Eigen::Matrix3d half_a_roll() { return Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal(); }
+
+/// Azimuth and elevation of a pixel change their signs, so row 0, the zenith, has no counterpart [Lu2015 Eq. 10].
+cv::Mat turned_over(const cv::Mat& panorama) {
+  if (panorama.rows < 2 || panorama.cols < 2) return panorama;
+  cv::Mat flipped, turned(panorama.size(), panorama.type());
+  cv::flip(panorama, flipped, -1);
+  const int rows = panorama.rows, columns = panorama.cols;
+  cv::Mat below = turned.rowRange(1, rows);
+  flipped(cv::Rect(columns - 1, 0, 1, rows - 1)).copyTo(below.colRange(0, 1));
+  flipped(cv::Rect(0, 0, columns - 1, rows - 1)).copyTo(below.colRange(1, columns));
+  below.rowRange(0, 1).copyTo(turned.rowRange(0, 1));
+  return turned;
+}
 
 void check(const CompassParameters& parameters) {
   const auto demand = [](bool met, const char* what) {
@@ -78,10 +99,12 @@ cv::Mat BandCutter::cut(const cv::Mat& panorama) const {
 }
 
 PanoramicCompass::PanoramicCompass(const CompassParameters& parameters, std::uint64_t seed,
-                                   const Eigen::Matrix3d& base_from_panorama, vision::StageObserver* observer) {
+                                   const Eigen::Matrix3d& base_from_panorama, vision::StageObserver* observer)
+    : hangs_(hangs(base_from_panorama)) {
   check(parameters);
-  method_ = parameters.method == "two_patches" ? make_two_patches(parameters, seed, base_from_panorama, observer)
-                                               : make_all_round(parameters, seed, base_from_panorama, observer);
+  const Eigen::Matrix3d mounting = hangs_ ? Eigen::Matrix3d(base_from_panorama * half_a_roll()) : base_from_panorama;
+  method_ = parameters.method == "two_patches" ? make_two_patches(parameters, seed, mounting, observer)
+                                               : make_all_round(parameters, seed, mounting, observer);
 }
 
 PanoramicCompass::~PanoramicCompass() = default;
@@ -89,10 +112,10 @@ PanoramicCompass::PanoramicCompass(PanoramicCompass&&) noexcept = default;
 
 std::optional<AzimuthChange> PanoramicCompass::track(std::int64_t stamp_ns, const cv::Mat& panorama,
                                                      std::optional<double> expected_turn_rad) {
-  return method_->track(stamp_ns, panorama, expected_turn_rad.value_or(0.0));
+  return method_->track(stamp_ns, hangs_ ? turned_over(panorama) : panorama, expected_turn_rad.value_or(0.0));
 }
 
-void PanoramicCompass::set_seen(const cv::Mat& seen) { method_->set_seen(seen); }
+void PanoramicCompass::set_seen(const cv::Mat& seen) { method_->set_seen(hangs_ ? turned_over(seen) : seen); }
 
 void PanoramicCompass::keep_earlier_points() { method_->keep_earlier_points(); }
 

@@ -11,8 +11,8 @@ namespace panvo::landmarks {
 class PanoramaLevel {
  public:
   PanoramaLevel() : PanoramaLevel(Eigen::Isometry3d::Identity(), false) {}
-  /// Panoramas stay as they are up to 2 degrees of tilt, and from 60, where the transform has other axes than those of
-  /// an optical frame.
+  /// Panoramas stay as they are up to 2 degrees of tilt, and from 60 to 120, where the transform has other axes than
+  /// those of an optical frame. Beyond, the camera hangs upside down.
   explicit PanoramaLevel(const Eigen::Isometry3d& base_from_panorama);
 
   bool is_tilted() const noexcept { return is_tilted_; }

@@ -40,8 +40,8 @@ struct TrackedPoints {
 /// Estimates the turn of the vehicle between panoramas, from the panoramas alone [Lu2015 6].
 class PanoramicCompass {
  public:
-  /// `base_from_panorama`: rotation from the panorama frame to the vehicle frame. Throws std::invalid_argument for
-  /// inconsistent parameters.
+  /// `base_from_panorama`: rotation from the panorama frame to the vehicle frame; the camera may hang upside down.
+  /// Throws std::invalid_argument for inconsistent parameters.
   explicit PanoramicCompass(const CompassParameters& parameters, std::uint64_t seed = 1,
                             const Eigen::Matrix3d& base_from_panorama = upright_base_from_panorama(),
                             vision::StageObserver* observer = nullptr);
@@ -70,6 +70,7 @@ class PanoramicCompass {
 
  private:
   std::unique_ptr<Method> method_;
+  bool hangs_;  // upside down: the method gets upright pictures
 };
 
 }  // namespace panvo::panoramic_compass
