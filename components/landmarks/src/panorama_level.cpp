@@ -7,14 +7,13 @@
 
 #include "panvo/vision/angle.hpp"
 #include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/panorama_tilt.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
 // Keypoints and features bear it: between opposite headings it is twice as much.
 constexpr double kLevel_rad = 2.0 * vision::kDegree;
-// Between them, a camera lies on its side, or the transform has other axes than those of an optical frame.
-constexpr double kOtherAxes_rad = 60.0 * vision::kDegree, kHangs_rad = 120.0 * vision::kDegree;
 
 /// Axes of an upright camera (x right, y down, z forward) in the vehicle's (x forward, y left, z up), that looks as far
 /// to the left as one with that rotation.
@@ -29,7 +28,7 @@ Eigen::Matrix3d upright(const Eigen::Matrix3d& base_from_panorama) {
 
 bool is_tilted(const Eigen::Matrix3d& base_from_panorama) {
   const double tilt_rad = std::acos(std::clamp(-base_from_panorama(2, 1), -1.0, 1.0));
-  return (tilt_rad > kLevel_rad && tilt_rad < kOtherAxes_rad) || tilt_rad > kHangs_rad;
+  return tilt_rad > kLevel_rad && vision::tilt_of_panorama(base_from_panorama) != vision::PanoramaTilt::kOnItsSide;
 }
 
 }  // namespace

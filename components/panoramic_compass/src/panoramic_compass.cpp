@@ -14,6 +14,7 @@
 #include "panvo/vision/grey.hpp"
 #include "panvo/vision/image_check.hpp"
 #include "panvo/vision/panorama_cover.hpp"
+#include "panvo/vision/panorama_tilt.hpp"
 
 namespace panvo::panoramic_compass {
 namespace {
@@ -22,11 +23,6 @@ constexpr int kMinColumns = 256;                       // px: below, the smalles
 constexpr double kViewTop = 0.25, kViewBottom = 0.55;  // checked rows: 45 degrees above to 9 below the horizon
 // Front, rear, left and right must be visible: else sideways motion is mistaken for a turn.
 constexpr double kMaxCovered = 1.0 / 3.0;
-// Cosine of the angle between the picture's down and the vehicle's up: beyond 120 degrees of tilt, a camera hangs. From
-// 60 to 120, it lies on its side, or the transform has other axes than those of an optical frame.
-constexpr double kHangs = 0.5;
-
-bool hangs(const Eigen::Matrix3d& base_from_panorama) { return base_from_panorama(2, 1) > kHangs; }
 
 /// Half a turn about the direction of view: of the axes, and of the picture's rows and columns.
 Eigen::Matrix3d half_a_roll() { return Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal(); }
@@ -100,7 +96,7 @@ cv::Mat BandCutter::cut(const cv::Mat& panorama) const {
 
 PanoramicCompass::PanoramicCompass(const CompassParameters& parameters, std::uint64_t seed,
                                    const Eigen::Matrix3d& base_from_panorama, vision::StageObserver* observer)
-    : hangs_(hangs(base_from_panorama)) {
+    : hangs_(vision::tilt_of_panorama(base_from_panorama) == vision::PanoramaTilt::kHanging) {
   check(parameters);
   const Eigen::Matrix3d mounting = hangs_ ? Eigen::Matrix3d(base_from_panorama * half_a_roll()) : base_from_panorama;
   method_ = parameters.method == "two_patches" ? make_two_patches(parameters, seed, mounting, observer)
@@ -115,7 +111,12 @@ std::optional<AzimuthChange> PanoramicCompass::track(std::int64_t stamp_ns, cons
   return method_->track(stamp_ns, hangs_ ? turned_over(panorama) : panorama, expected_turn_rad.value_or(0.0));
 }
 
-void PanoramicCompass::set_seen(const cv::Mat& seen) { method_->set_seen(hangs_ ? turned_over(seen) : seen); }
+void PanoramicCompass::set_seen(const cv::Mat& seen) {
+  if (!hangs_) return method_->set_seen(seen);
+  cv::Mat upright;
+  cv::flip(seen, upright, -1);  // of a mask's large cells, none is a direction
+  method_->set_seen(upright);
+}
 
 void PanoramicCompass::keep_earlier_points() { method_->keep_earlier_points(); }
 

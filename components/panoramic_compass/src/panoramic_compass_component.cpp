@@ -17,6 +17,7 @@
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/vision/panorama_tilt.hpp"
 #include "panvo/vision/panorama_watch.hpp"
 #include "panvo/vision/stamp_sequence.hpp"
 #include "panvo/vision/vehicle_mask.hpp"
@@ -175,8 +176,13 @@ class PanoramicCompassComponent final : public runtime::Component {
   void take_mounting(const std::string& frame) {
     const auto base_from_panorama =
         transforms_.lookup(parameters_.base_frame, frame, "assuming an upright, forward-looking panoramic camera");
-    if (base_from_panorama && !base_from_panorama->linear().isApprox(base_from_panorama_, 1e-9))
-      make_compass(base_from_panorama->linear());
+    if (!base_from_panorama || base_from_panorama->linear().isApprox(base_from_panorama_, 1e-9)) return;
+    make_compass(base_from_panorama->linear());
+    if (vision::tilt_of_panorama(base_from_panorama_) != vision::PanoramaTilt::kOnItsSide) return;
+    context_.log().warn(
+        "{} lies on its side in {}: turns are uncertain, and places are recognised at one heading only. If the camera "
+        "stands upright, /tf_static must have its optical frame: x right, y down, z ahead",
+        frame, parameters_.base_frame);
   }
 
   void tell(const AzimuthChange& change, const std::string& frame) {

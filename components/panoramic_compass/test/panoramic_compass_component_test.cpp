@@ -84,6 +84,14 @@ TEST_F(PanoramicCompassComponent, TellsTheTurnOfEachPanoramaButTheFirst) {
   EXPECT_FALSE(harness.log_contains("warning"));
 }
 
+TEST_F(PanoramicCompassComponent, WarnsOfAnUprightCameraWithTheVehiclesAxes) {
+  load();
+  publish_mounting(Eigen::Matrix3d::Identity());
+  publish(street);
+  EXPECT_TRUE(harness.log_contains("lies on its side in base_link"));
+  EXPECT_TRUE(harness.log_contains("x right, y down, z ahead"));
+}
+
 TEST_F(PanoramicCompassComponent, TellsThePointsIfAnybodyReadsThem) {
   const auto& points = harness.collect(topics::kPanoramaPoints);
   load();
