@@ -175,8 +175,9 @@ class BinocularOdometryComponent final : public runtime::Component {
     const auto now = transforms_.buffer().lookup(parameters_.base_frame, frame);
     if (is_said_moved_ || !now || vision::pose_error(tracking_->base_from_raw_left, *now).norm() < kSameMount) return;
     is_said_moved_ = true;
-    context_.log().warn("{} has another pose of {} on {} than when tracking began: it is ignored until a restart",
-                        context_.resolved_name(topics::kTfStatic), frame, parameters_.base_frame);
+    context_.log().warn(
+        "{} has another pose of {} on {} than when tracking began: it is used only when tracking restarts",
+        context_.resolved_name(topics::kTfStatic), frame, parameters_.base_frame);
   }
 
   /// Logged once, because it persists while driving.

@@ -114,6 +114,10 @@ class FleetComponent final : public runtime::Component {
                                            read.reason());
     }
     auto landmark = *read;
+    if (map_.map().is_other(landmark)) {
+      return context_.log().warn_throttled(fmt::format("landmark {}", landmark.id),
+                                           "landmark {}: its id is that of another one; not shared", landmark.id);
+    }
     map_.map().add(landmark);
     base_from_panorama_ = landmark.base_from_panorama;
     own_keypoints_->put(landmark.id, landmark.keypoints);

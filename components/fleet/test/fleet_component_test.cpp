@@ -209,6 +209,15 @@ TEST_F(FleetOfComponents, KeepsQuietAboutAPoseThatIsNotKnownInItsMap) {
   EXPECT_TRUE(poses.empty());
 }
 
+TEST_F(FleetOfComponents, SharesNoLandmarkOfWhichAnotherHasTheId) {
+  load("one", "one");
+  drives_->pause(0.0, 20.0);
+  drives_->drive("one", flat(0, 0, 0), 1.0);
+  drives_->drive("one", flat(500, 0, 0), 10.0);  // of a builder that was restarted and counts from 1 again
+  ASSERT_THAT(harness_.container().run(), IsEmpty());
+  EXPECT_TRUE(harness_.log_contains("landmark 1: its id is that of another one; not shared"));
+}
+
 TEST_F(FleetOfComponents, SurvivesAnInvalidMessage) {
   load("one", "one");
   drives_->pause(0.0, 8.0);

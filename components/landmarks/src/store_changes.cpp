@@ -88,6 +88,11 @@ void PendingChanges::push_poses(MovedLandmarks moved) {
   waiting_.push_back(std::make_shared<StoreChange>(std::move(moved)));  // after the landmarks that it moves
 }
 
+std::size_t PendingChanges::size() const {
+  const auto counts = [](const auto& change) { return change && !std::holds_alternative<BegunRun>(*change); };
+  return static_cast<std::size_t>(std::ranges::count_if(waiting_, counts)) + (counts(current_) ? 1 : 0);
+}
+
 std::shared_ptr<const StoreChange> PendingChanges::take() {
   if (waiting_.empty()) return nullptr;
   current_ = waiting_.front();

@@ -63,7 +63,8 @@ class PendingChanges {
   std::shared_ptr<const StoreChange> take();
   void done() { current_.reset(); }
 
-  std::size_t size() const noexcept { return waiting_.size() + (current_ ? 1 : 0); }
+  /// Without a run that has begun, of which nothing is lost.
+  std::size_t size() const;
   /// Changes that came while there was no room.
   std::uint64_t refused() const noexcept { return refused_; }
 

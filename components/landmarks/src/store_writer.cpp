@@ -169,7 +169,7 @@ class ServerWriter final : public StoreWriter {
     for (int attempt = 0;; ++attempt) {
       try {
         make(*change);
-        worker_->locked([&] { ended_well(); });
+        worker_->locked([&] { ended_well(*change); });
         return true;
       } catch (const StoreUnavailable& error) {
         if (!pause(attempt, error.what())) return false;
@@ -194,9 +194,9 @@ class ServerWriter final : public StoreWriter {
     apply(change, *store_, ids_);
   }
 
-  void ended_well() {
+  void ended_well(const StoreChange& change) {
     pending_.done();
-    ++stored_;
+    if (!std::holds_alternative<BegunRun>(change)) ++stored_;
     is_full_ = false;
     if (!problem_.empty())
       tell(false, "the server answers again; " + std::to_string(pending_.size()) + " changes wait");

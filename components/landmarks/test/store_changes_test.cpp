@@ -38,6 +38,15 @@ TEST(PendingChanges, ComeInOrder) {
   EXPECT_EQ(pending.size(), 0U);
 }
 
+TEST(PendingChanges, DoNotCountARunThatHasBegun) {
+  PendingChanges pending(10);
+  pending.push(BegunRun{});
+  pending.push(added(1));
+  EXPECT_EQ(pending.size(), 1U);
+  ASSERT_TRUE(std::holds_alternative<BegunRun>(*pending.take()));
+  EXPECT_EQ(pending.size(), 1U);
+}
+
 TEST(PendingChanges, AreRefusedAndCountedWithoutRoom) {
   PendingChanges pending(3);
   EXPECT_TRUE(pending.push(added(1)));

@@ -92,7 +92,8 @@ void CrossCheck::end_jump() {
   unsure_.end();
 }
 
-/// A jump that nothing confirms or contradicts any more is over after some time: then it cannot be told.
+/// Without a panorama that confirms or contradicts it, a jump is over after some time. So is any after kLongestJump_s:
+/// what was seen before it tells nothing of the scenery and the speed of now.
 void CrossCheck::drop_old_jump(std::int64_t now_ns) {
   if (!jump_) return;
   if (!is_fresh(jump_->last_ns(), now_ns) || vision::seconds(jump_->since_ns, now_ns) > kLongestJump_s) end_jump();

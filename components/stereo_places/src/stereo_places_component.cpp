@@ -114,6 +114,9 @@ class StereoPlacesComponent final : public runtime::Component {
       last_skipped_id_ = std::max(last_skipped_id_, message.id());
       return context_.log().warn_throttled("landmark", "landmark {} {}; skipped", message.id(), read.reason());
     }
+    if (map_.map().is_other(*read)) {
+      return context_.log().warn_throttled("other", "landmark {}: its id is that of another one; skipped", read->id);
+    }
     early_.push_back(*read);
     map_.map().add(early_.back());
     if (places_) take_early();

@@ -268,6 +268,20 @@ TEST_F(StereoPlacesComponent, NumbersPlacesAboveThoseOfWhichOnlyThePosesArrived)
   EXPECT_EQ(landmarks[0]->id(), 42U);
 }
 
+TEST_F(StereoPlacesComponent, TakesNoLandmarkForAnotherOfTheSameId) {
+  load();
+  publish_cameras();
+  drive(0.0, 0.0);
+  auto other = *landmarks.at(0);  // of a process that was restarted and counts from 1 again
+  other.header().stamp(conversions::to_stamp(stamp_ns + 1));
+  other.pose().pose().position().x(500.0);
+  harness_->publish(topics::kLandmarks, other);
+  EXPECT_TRUE(harness_->log_contains("landmark 1: its id is that of another one; skipped"));
+  drive_around();
+  drive(0.0, 0.0);
+  EXPECT_EQ(matches.back()->candidates(), 1U);  // it stands where it stood
+}
+
 TEST_F(StereoPlacesComponent, FollowsMovedLandmarks) {
   load();
   publish_cameras();
