@@ -12,7 +12,7 @@ namespace panvo::all_round_odometry {
 namespace {
 
 enum class Before { kBlind, kSetClock };  // what shifted the path
-enum class At { kOrigin, kFarAway };      // with a covariance that begins anew, or one that does not change
+enum class At { kOrigin, kFarAway };      // with a covariance that restarts at zero, or one that is constant
 
 class Restart : public Drive {
  protected:
@@ -113,7 +113,7 @@ TEST_F(Restart, IsNoSingleWrongPose) {
   empty.covariance.setZero();
   EXPECT_TRUE(odometry_.add(empty));
   EXPECT_FALSE(odometry_.add(empty)) << "twice";
-  EXPECT_FALSE(odometry_.next()) << "behind a shift, it would be taken for motion";
+  EXPECT_FALSE(odometry_.next()) << "the restart would appear as motion of the vehicle";
   go(26, 30, Stereo::kGood);
   EXPECT_LT(error_m(poses_.back()), error_before_m + 0.1);
   expect_no_jump();

@@ -65,7 +65,7 @@ class BinocularOdometryComponent final : public runtime::Component {
   static constexpr double kStaleCalibration_px = 1.0;  // a good calibration has a few tenths
   static constexpr double kSameMount = 0.001;          // m and rad: mounts are not measured better
 
-  /// Created once the cameras are known, and anew when they change.
+  /// Created when the cameras are known, and again when they change.
   struct Tracking {
     TrackingStage stage;
     std::shared_ptr<const StereoRig> rig;

@@ -12,6 +12,7 @@
 #include "panvo/runtime/testing.hpp"
 #include "panvo/sqlite/database.hpp"
 #include "panvo/test/temporary_folder.hpp"
+#include "poses_message.hpp"
 
 namespace panvo::landmarks {
 namespace {
@@ -39,13 +40,7 @@ class LandmarkStoreComponent : public testing::Test {
       harness.publish(topics::kLandmarks, to_message(landmark, settings, "map"));
     }
     void publish_poses(const std::vector<PanoramicLandmark>& landmarks) {
-      panvo_msgs::msg::LandmarkPoses message;
-      for (const auto& landmark : landmarks) {
-        const auto whole = to_message(landmark, made_up_settings(), "map");
-        message.ids().push_back(landmark.id);
-        message.poses().push_back(whole.pose());
-      }
-      harness.publish(topics::kLandmarkPoses, message);
+      harness.publish(topics::kLandmarkPoses, to_poses_message(landmarks));
     }
   };
 

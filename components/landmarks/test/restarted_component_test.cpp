@@ -6,6 +6,7 @@
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "poses_message.hpp"
 #include "store_fixture.hpp"
 
 namespace panvo::landmarks {
@@ -42,12 +43,7 @@ struct Life {
     harness.publish(topics::kLandmarks, to_message(landmark, made_up_settings(), "map"));
   }
   void publish_poses(const std::vector<PanoramicLandmark>& landmarks) {
-    panvo_msgs::msg::LandmarkPoses message;
-    for (const auto& landmark : landmarks) {
-      message.ids().push_back(landmark.id);
-      message.poses().push_back(to_message(landmark, made_up_settings(), "map").pose());
-    }
-    harness.publish(topics::kLandmarkPoses, message);
+    harness.publish(topics::kLandmarkPoses, to_poses_message(landmarks));
   }
   /// From far away, drives past a landmark, recognises it, and drives away from all.
   void pass(const PanoramicLandmark& landmark) {

@@ -5,6 +5,7 @@
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "poses_message.hpp"
 #include "store_fixture.hpp"
 #include "store_writer.hpp"
 
@@ -32,12 +33,7 @@ class ServerStoreComponent : public ServerTest {
       harness.publish(topics::kLandmarks, to_message(landmark, settings, "map"));
     }
     void publish_poses(const std::vector<PanoramicLandmark>& landmarks) {
-      panvo_msgs::msg::LandmarkPoses message;
-      for (const auto& landmark : landmarks) {
-        message.ids().push_back(landmark.id);
-        message.poses().push_back(to_message(landmark, made_up_settings(), "map").pose());
-      }
-      harness.publish(topics::kLandmarkPoses, message);
+      harness.publish(topics::kLandmarkPoses, to_poses_message(landmarks));
     }
     /// Position only: makes the component tell its notices.
     void drive_to(double x) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kShowsWithin = 4;  // images after a jump
 constexpr double kUnlike = 2.0;          // times what usual motion deviates: a jump would show in that time
-constexpr double kSame = 0.2;            // of a way: a smaller difference is no jump
+constexpr double kSame = 0.2;            // fraction of the distance: a smaller difference is not a jump
 constexpr double kLongestJump_s = 5.0;   // then, neither scenery nor speed are as before
 
 }  // namespace

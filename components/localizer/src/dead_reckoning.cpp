@@ -3,17 +3,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cstddef>
 #include <numbers>
-#include <vector>
 
 namespace panvo::localizer {
 namespace {
 
 constexpr double kTiltRateRad = 0.02;  // per second
 constexpr double kMaxTilt_rad = 0.05;
-constexpr double kSlow = 3.0;           // multiple of the usual interval from which a step is a gap
-constexpr std::size_t kIntervals = 21;  // whose median is the usual one: less than half of them may be gaps
+constexpr double kSlow = 3.0;  // multiple of the usual interval from which a step is a gap
 
 /// Distance under constant acceleration, limited by that at constant speed.
 double after(double seconds, double acceleration, double speed) {
@@ -23,9 +20,8 @@ double after(double seconds, double acceleration, double speed) {
 }  // namespace
 
 vision::Matrix6d DeadReckoning::step(double interval_s, bool is_reliable) {
-  const bool is_gap = interval_s > std::max(gap_s_, kSlow * usual_s());
-  intervals_s_.push_back(interval_s);
-  if (intervals_s_.size() > kIntervals) intervals_s_.pop_front();
+  const bool is_gap = interval_s > std::max(gap_s_, kSlow * interval_.median_s());
+  interval_.add(interval_s);
   if (is_reliable && !is_gap) {
     blind_s_ = 0.0;
     return vision::Matrix6d::Zero();
@@ -37,15 +33,6 @@ vision::Matrix6d DeadReckoning::step(double interval_s, bool is_reliable) {
 
 vision::Matrix6d DeadReckoning::silence(double seconds) const {
   return (variance_after(blind_s_ + seconds) - variance_after(blind_s_)).asDiagonal();
-}
-
-/// A mean would follow a gap of an hour, and take the next minutes of silence for usual.
-double DeadReckoning::usual_s() const {
-  if (intervals_s_.empty()) return 0.0;
-  std::vector<double> sorted_s(intervals_s_.begin(), intervals_s_.end());
-  const auto median = sorted_s.begin() + static_cast<std::ptrdiff_t>((sorted_s.size() - 1) / 2);
-  std::nth_element(sorted_s.begin(), median, sorted_s.end());
-  return *median;
 }
 
 double way_sigma_m(const MotionPrior& prior, double seconds) {

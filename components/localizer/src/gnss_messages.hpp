@@ -19,7 +19,7 @@ struct SatellitePosition {
 };
 
 /// Of a message that satisfies its rules. Variances that are unknown or 0: of a receiver without corrections.
-/// `usual_altitude_m`: assumed of a message without altitude. The reason says why there is no position.
+/// `usual_altitude_m`: used if the message has no altitude. If there is no position, reason() says why.
 conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message, double usual_altitude_m);
 
 /// The vehicle's position, if the frame of the satellites touches the earth at `plane`.

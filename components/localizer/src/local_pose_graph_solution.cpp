@@ -34,6 +34,13 @@ vision::Matrix6d unknown_enu() {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
+/// Covariance, in the axes of a way, that it gains by the scale.
+vision::Matrix6d by_scale(const Eigen::Vector3d& way, double sigma) {
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  covariance.topLeftCorner<3, 3>() = sigma * sigma * way * way.transpose();
+  return covariance;
+}
+
 }  // namespace
 
 bool LocalPoseGraph::solve() {
@@ -185,12 +192,9 @@ const LocalPoseGraph::Node* LocalPoseGraph::solved_node() const {
 
 /// Covariance, in the map, that the way from the latest solution with satellites gains by the scale.
 vision::Matrix6d LocalPoseGraph::since_solution(const OdometrySample& at) const {
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();
   const Node* const from = solved_node();
-  if (from == nullptr || at.pose.stamp_ns < from->at.pose.stamp_ns) return covariance;
-  const Eigen::Vector3d way = from->map_from_base.linear() * way_between(from->at.pose, at.pose).translation();
-  covariance.topLeftCorner<3, 3>() = scale_.sigma * scale_.sigma * way * way.transpose();
-  return covariance;
+  if (from == nullptr || at.pose.stamp_ns < from->at.pose.stamp_ns) return vision::Matrix6d::Zero();
+  return by_scale(from->map_from_base.linear() * way_between(from->at.pose, at.pose).translation(), scale_.sigma);
 }
 
 PoseInMap LocalPoseGraph::in_enu(const OdometrySample& at) const {
@@ -207,11 +211,7 @@ PoseInMap LocalPoseGraph::in_enu(const OdometrySample& at) const {
   const Eigen::Isometry3d way = way_between(from.at.pose, at.pose);
   const bool is_back = at.pose.stamp_ns < from.at.pose.stamp_ns;
   vision::Matrix6d gained = vision::Matrix6d::Zero();
-  if (!is_back) {
-    const Eigen::Vector3d length = way.translation();
-    gained = way_covariance(from.at, at);
-    gained.topLeftCorner<3, 3>() += scale_.sigma * scale_.sigma * length * length.transpose();
-  }
+  if (!is_back) gained = way_covariance(from.at, at) + by_scale(way.translation(), scale_.sigma);
   return {enu_from_node * way,
           vision::compose_covariance(enu_from_node, vision::rotate_covariance(enu_from_map.linear(), in_map_axes), way,
                                      gained)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -8,6 +9,13 @@
 #include "panvo/localizer/localizer.hpp"
 
 namespace panvo::localizer {
+
+/// Squared error of a horizontal position over its expectation.
+inline double position_nees(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth,
+                            const vision::Matrix6d& covariance) {
+  const Eigen::Vector2d error = vision::pose_error(estimate, truth).head<2>();
+  return error.dot(covariance.topLeftCorner<2, 2>().ldlt().solve(error)) / 2.0;
+}
 
 /// A drive with bends of both directions and odometry whose lengths are wrong, and a receiver in a frame of its own.
 /// Errors of fixes: half of the variance is white, half changes within `persist_s`.

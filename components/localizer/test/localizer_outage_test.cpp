@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -49,11 +48,11 @@ class Outage {
 
   /// Normalised squared error of the horizontal position, per axis.
   double nees_of_pose() const {
-    return nees(localizer_.latest().map_from_base, drive_.truth, localizer_.latest().covariance);
+    return position_nees(localizer_.latest().map_from_base, drive_.truth, localizer_.latest().covariance);
   }
   double nees_of_place() const {
     const auto landmark = localizer_.landmarks().front();
-    return nees(landmark.map_from_base, place_, landmark.covariance);
+    return position_nees(landmark.map_from_base, place_, landmark.covariance);
   }
 
  private:
@@ -63,12 +62,6 @@ class Outage {
     Parameters parameters;
     parameters.scale_sigma = kScaleSigma;
     return parameters;
-  }
-
-  static double nees(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth,
-                     const vision::Matrix6d& covariance) {
-    const Eigen::Vector2d error = vision::pose_error(estimate, truth).head<2>();
-    return error.dot(covariance.topLeftCorner<2, 2>().ldlt().solve(error)) / 2.0;
   }
 
   Eigen::Vector3d noise() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -92,13 +91,6 @@ class BeyondTheMap {
   Localizer localizer{of_scale()};
 };
 
-/// Of a horizontal position.
-double squared_error(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth,
-                     const vision::Matrix6d& covariance) {
-  const Eigen::Vector2d error = vision::pose_error(estimate, truth).head<2>();
-  return error.dot(covariance.topLeftCorner<2, 2>().ldlt().solve(error)) / 2.0;
-}
-
 TEST(LocalizerInAStoredMap, KnowsHowWellItKnowsThePositionBeyondIt) {
   constexpr int kTrials = 40;
   constexpr int kBeyond = 6 * kBend;
@@ -107,7 +99,7 @@ TEST(LocalizerInAStoredMap, KnowsHowWellItKnowsThePositionBeyondIt) {
     BeyondTheMap journey(seed);
     const auto nees = [&] {
       const auto& here = journey.localizer.latest();
-      return squared_error(here.map_from_base, journey.drive.truth, here.covariance) / kTrials;
+      return position_nees(here.map_from_base, journey.drive.truth, here.covariance) / kTrials;
     };
     ASSERT_EQ(journey.localizer.latest().state, State::kTracking) << journey.localizer.latest().reason;
     in_map += nees();
@@ -115,7 +107,7 @@ TEST(LocalizerInAStoredMap, KnowsHowWellItKnowsThePositionBeyondIt) {
     beyond += nees();
     ASSERT_TRUE(journey.localizer.add_built(100, journey.drive.stamp_ns()));
     const auto built = journey.localizer.landmarks().back();
-    landmark += squared_error(built.map_from_base, journey.drive.truth, built.covariance) / kTrials;
+    landmark += position_nees(built.map_from_base, journey.drive.truth, built.covariance) / kTrials;
   }
   RecordProperty("in_map", std::to_string(in_map));
   RecordProperty("beyond", std::to_string(beyond));

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
-
 #include "panvo/vision/pose.hpp"
+#include "panvo/vision/usual_interval.hpp"
 
 namespace panvo::localizer {
 
@@ -45,13 +44,12 @@ class DeadReckoning {
   vision::Matrix6d silence(double seconds) const;
 
  private:
-  double usual_s() const;
   vision::Vector6d variance_after(double seconds) const;
 
   const MotionPrior prior_;
   const double gap_s_;
-  std::deque<double> intervals_s_;  // the last ones
-  double blind_s_ = 0.0;            // time since the motion was last measured
+  vision::UsualInterval interval_;
+  double blind_s_ = 0.0;  // time since the motion was last measured
 };
 
 /// `covariance`, raised to at least `least` in every direction; for combining two estimates of one covariance.
