@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <csignal>
 #include <iterator>
-#include <map>
-#include <sstream>
 
 #include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
+#include "tum_positions.hpp"
 #include "two_hosts.hpp"
 
 namespace panvo::test {
@@ -27,24 +25,6 @@ constexpr auto kSlowly = "0.3";
 // Both sides must have discovered each other before the first image is sent.
 const Words kAwaitReaders{"--await", "/stereo/left/image_rect", "--await", "/stereo/right/image_rect",
                           "--await", "/stereo/left/camera_info"};
-
-struct Position {
-  double x, y, z;
-};
-
-/// Stamp, as written in the file -> position.
-std::map<std::string, Position> read_tum(const std::filesystem::path& file) {
-  std::map<std::string, Position> positions;
-  std::istringstream lines(read_file(file));
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string stamp;
-    Position position{};
-    words >> stamp >> position.x >> position.y >> position.z;
-    positions[stamp] = position;
-  }
-  return positions;
-}
 
 class AcrossHosts : public testing::Test {
  protected:
@@ -93,10 +73,7 @@ class AcrossHosts : public testing::Test {
       ASSERT_TRUE(expected.contains(stamp)) << stamp;
       const Position& wanted = expected.at(stamp);
       const Position& origin = first->second;
-      EXPECT_LT(std::hypot(position.x - (wanted.x - origin.x), position.y - (wanted.y - origin.y),
-                           position.z - (wanted.z - origin.z)),
-                0.05)
-          << stamp;
+      EXPECT_LT(distance(position, {wanted.x - origin.x, wanted.y - origin.y, wanted.z - origin.z}), 0.05) << stamp;
     }
   }
 

@@ -4,10 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <sstream>
 #include <vector>
 
@@ -16,6 +14,7 @@
 #include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
+#include "tum_positions.hpp"
 
 namespace panvo::test {
 namespace {
@@ -23,26 +22,6 @@ namespace {
 using std::chrono::seconds;
 
 const std::string kStereo = SYSTEMS "/stereo.yaml";
-
-struct Position {
-  double x, y, z;
-};
-
-/// Stamp, as written in the file -> position.
-std::map<std::string, Position> read_tum(const std::filesystem::path& file) {
-  std::map<std::string, Position> positions;
-  std::istringstream lines(read_file(file));
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string stamp;
-    Position position{};
-    words >> stamp >> position.x >> position.y >> position.z;
-    positions[stamp] = position;
-  }
-  return positions;
-}
-
-double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 /// Records the raw images of a recording into a bag.
 class RecordedTopics : public testing::TestWithParam<std::string> {
