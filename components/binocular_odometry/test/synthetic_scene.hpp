@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -45,7 +46,7 @@ class SyntheticScene {
   }
 
  private:
-  static double noise(int x, int y, int seed) {
+  static double noise(std::int64_t x, std::int64_t y, int seed) {
     auto h = static_cast<std::uint32_t>(x) * 0x8da6b343U ^ static_cast<std::uint32_t>(y) * 0xd8163841U ^
              static_cast<std::uint32_t>(seed) * 0xcb1ab31fU;
     h = (h ^ (h >> 13)) * 0x9e3779b1U;
@@ -54,9 +55,9 @@ class SyntheticScene {
 
   // Random grey levels on a grid, smoothly interpolated.
   static double texture(double x, double y, int seed) {
-    const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
+    const auto column = static_cast<std::int64_t>(std::floor(x)), row = static_cast<std::int64_t>(std::floor(y));
     const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };
-    const double fx = ease(x - column), fy = ease(y - row);
+    const double fx = ease(x - static_cast<double>(column)), fy = ease(y - static_cast<double>(row));
     const double above = (1.0 - fx) * noise(column, row, seed) + fx * noise(column + 1, row, seed);
     const double below = (1.0 - fx) * noise(column, row + 1, seed) + fx * noise(column + 1, row + 1, seed);
     return (1.0 - fy) * above + fy * below;
