@@ -165,7 +165,13 @@ std::map<std::uint32_t, LandmarkUse> LandmarkStore::uses() const { return backen
 
 std::uint32_t LandmarkStore::next_session() const { return backend_->next_session(); }
 
-std::optional<StoredRun> LandmarkStore::find_run(const std::string& id) const { return backend_->find_run(id); }
+std::vector<StoredRun> LandmarkStore::runs() const { return backend_->runs(); }
+
+std::optional<StoredRun> LandmarkStore::find_run(const std::string& id) const {
+  auto all = runs();
+  const auto found = std::ranges::find(all, id, &StoredRun::id);
+  return found == all.end() ? std::nullopt : std::optional(std::move(*found));
+}
 
 void LandmarkStore::begin_run(const StoredRun& run) {
   backend_->transact([&] { run_ = backend_->put_run(run) ? run.id : ""; });

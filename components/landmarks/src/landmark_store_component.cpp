@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -9,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "id_disputes.hpp"
+#include "map_use.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
@@ -16,46 +20,12 @@
 #include "panvo/landmarks/map_listener.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "run_finder.hpp"
+#include "store_parameters.hpp"
 #include "store_writer.hpp"
 
 namespace panvo::landmarks {
 namespace {
-
-struct Parameters {
-  std::string file;
-  bool read_only = false;
-  std::string map_frame = "map";
-  int appearances = 4;
-  int forget_after = 10;
-  int waiting = 1000;
-  int answer_s = 10;
-
-  template <class Field>
-  static void describe(Field&& field) {
-    using P = Parameters;
-    field.path(&P::file, "file",
-               "store file, created with the first landmark, or location of a PostgreSQL database, "
-               "postgresql://USER@HOST/NAME; "
-               "empty: landmarks are not saved");
-    field(&P::read_only, "read_only", "", "publish the stored landmarks, store nothing");
-    field(&P::map_frame, "map_frame", "", "frame of the stored poses");
-    field(&P::appearances, "appearances", "1",
-          "landmarks at one place: others are kept where the known ones were missed on two drives while most others of "
-          "their sessions were missed, too, or on four",
-          1, 20);
-    field(&P::forget_after, "forget_after", "1",
-          "drives past a landmark without recognising it, where most others of its session were recognised, after "
-          "which it "
-          "is removed; 0: never",
-          0, 1000);
-    field(
-        &P::waiting, "waiting", "1",
-        "changes kept in memory while the database server does not answer or another process reads the file; more are "
-        "lost, those for a server counted in /diagnostics",
-        10, 1'000'000);
-    field(&P::answer_s, "answer_s", "s", "longest wait for an answer of the database server", 1, 600);
-  }
-};
 
 /// Publishes the landmarks of a store at start, and stores new and moved ones. Poses are updated by landmarks/poses,
 /// all in one transaction, or by a landmark that is received again. A database is written by another thread. From odometry/enhanced and correction/outcome it counts
@@ -63,14 +33,14 @@ struct Parameters {
 class LandmarkStoreComponent final : public runtime::Component {
  public:
   explicit LandmarkStoreComponent(runtime::Context& context)
-      : context_(context), parameters_(context.parameters<Parameters>()), output_(context.output(topics::kLandmarks)) {
-    rules_.appearances = parameters_.appearances;
-    rules_.forget_after = parameters_.forget_after;
+      : context_(context),
+        parameters_(context.parameters<StoreParameters>()),
+        output_(context.output(topics::kLandmarks)) {
     if (parameters_.file.empty()) {
       context.log().info("no file set: the landmarks of this run will not be saved");
       return;
     }
-    context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
+    context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(message); });
     map_.emplace(context, [this](const auto& moved) { on_moved(moved); });
     if (!parameters_.read_only) {
       context.input(topics::kCorrectionOutcome, [this](const auto& message) { on_outcome(*message); });
@@ -80,16 +50,21 @@ class LandmarkStoreComponent final : public runtime::Component {
     if (!parameters_.read_only) run_.id = context.run_id();
     if (!location_.is_server()) context.about_to_read(parameters_.file);
     try {
-      std::unique_ptr<LandmarkStore> store;
-      if (parameters_.read_only || LandmarkStore::exists(location_, patience_)) store = open();
-      if (parameters_.read_only) return;
-      const auto most_waiting = static_cast<std::size_t>(parameters_.waiting);
-      writer_ = location_.is_server() ? write_to_server(location_, settings_, patience_, run_, most_waiting)
-                                      : write_to_file(location_, std::move(store), run_, most_waiting);
+      if (parameters_.read_only || LandmarkStore::exists(location_, patience_)) open();
+      if (!finder_) start();
     } catch (const StoreError& error) {
       throw runtime::ConfigError(error.what());
     }
-    if (location_.is_server()) context.on_diagnostics([this] { return writer_->diagnostics(); });
+    if (finder_) {
+      context.every(std::chrono::seconds(kListen_s), [this] { settle(); });
+      context.on_end([this] { settle(); });
+    }
+    if (location_.is_server() && !parameters_.read_only) {
+      context.on_diagnostics([this] {
+        const auto* const writer = diagnosed_.load();
+        return writer == nullptr ? runtime::DiagnosticValues{} : writer->diagnostics();
+      });
+    }
   }
 
   ~LandmarkStoreComponent() override {
@@ -100,26 +75,64 @@ class LandmarkStoreComponent final : public runtime::Component {
 
  private:
   static constexpr double kMaxSigma_m = 2.0;  ///< of a pose that tells which landmark is passed
+  /// For what the others have to say: DDS announces participants every 3 s.
+  static constexpr int kListen_s = 3;
 
-  /// Publishes what is stored; returns the store, to write to it.
-  std::unique_ptr<LandmarkStore> open() {
+  void open() {
     // The store keeps the settings of the landmarks received; their users check whether they can use them.
-    auto store = std::make_unique<LandmarkStore>(location_, patience_);
-    settings_ = store->settings();
-    if (!parameters_.read_only) {
-      store = std::make_unique<LandmarkStore>(location_, *settings_, patience_);
-      begin(*store);
+    store_ = std::make_unique<LandmarkStore>(location_, patience_);
+    settings_ = store_->settings();
+    if (parameters_.read_only) return;
+    store_ = std::make_unique<LandmarkStore>(location_, *settings_, patience_);
+    if (run_.id.empty()) return;
+    auto runs = store_->runs();
+    const auto own = std::ranges::find(runs, run_.id, &StoredRun::id);
+    if (own != runs.end()) {
+      resumed_ = *own;
+    } else if (std::ranges::any_of(runs, has_own_ids)) {
+      finder_.emplace(std::move(runs), store_->landmarks());
+      if (!finder_->is_needed()) finder_.reset();
     }
-    store->read_one_state([&] { publish(*store); });
-    return store;
+  }
+
+  /// Publishes what is stored, and goes on to write.
+  void start() {
+    if (store_) {
+      if (!parameters_.read_only) begin(*store_);
+      store_->read_one_state([&] { publish(*store_); });
+    }
+    if (parameters_.read_only) return store_.reset();
+    const auto most_waiting = static_cast<std::size_t>(parameters_.waiting);
+    writer_ = location_.is_server() ? write_to_server(location_, settings_, patience_, run_, most_waiting)
+                                    : write_to_file(location_, std::move(store_), run_, most_waiting);
+    store_.reset();
+    diagnosed_ = writer_.get();
+  }
+
+  /// Starts once the others have said which run this is, or could have.
+  void settle() {
+    if (!finder_) return;
+    resumed_ = finder_->found();
+    map_->map() = MapReplica();  // its ids may be others
+    try {
+      start();
+    } catch (const StoreUnavailable& error) {
+      return context_.log().warn_throttled("start", "{}. The landmarks come when it answers", error.what());
+    } catch (const StoreError& error) {
+      fail(error);
+    }
+    const auto heard = std::exchange(finder_, std::nullopt);
+    std::vector<LandmarkPose> poses;
+    for (const auto& [id, pose] : heard->poses()) poses.push_back(pose);
+    if (!poses.empty()) on_moved(map_->map().move(poses));
+    for (const auto& message : std::exchange(early_, {})) on_landmark(message);
   }
 
   /// After a restart, the run goes on: other components still have its landmarks by the ids that they had before.
   void begin(LandmarkStore& store) {
-    if (const auto before = run_.id.empty() ? std::nullopt : store.find_run(run_.id)) {
-      run_ = *before;
+    if (resumed_) {
+      run_ = *resumed_;
       for (const auto& [in_run, in_store] : run_.ids) stored_.insert(in_run);
-      is_resumed_ = true;
       return;
     }
     forget(store);
@@ -151,27 +164,24 @@ class LandmarkStoreComponent final : public runtime::Component {
         return tell(error.what());
       }
       map_->map().add(landmark);
-      if (const auto use = uses.find(stored_id); use != uses.end()) uses_[landmark.id] = use->second;
-      remember(landmark.id);
-      if (!is_own) earlier_[landmark.id] = uses_[landmark.id];
+      const auto found_use = uses.find(stored_id);
+      const auto use = found_use == uses.end() ? LandmarkUse{} : found_use->second;
+      remember(map_->map().pose(landmark.id), use, is_own ? std::nullopt : std::optional(use));
       // The topic is latched, so subscribers may join later.
       output_.publish(to_message(landmark, store.settings(), parameters_.map_frame));
       ++loaded;
     };
     store.for_each(publish_one, tell);
-    if (is_resumed_) passes_.leave_out_current();
+    if (resumed_) use_.leave_out_current();
     context_.log().info("{}: {} landmarks loaded{}", store.name(), loaded,
-                        is_resumed_ ? "; this run goes on with those that it added before the restart" : "");
+                        resumed_ ? "; this run goes on with those that it added before the restart" : "");
   }
 
   /// Places of a stereo camera are recognised at like headings only, so that a pass does not tell that one has changed.
   bool is_followed() const { return !settings_ || !settings_->contains("camera"); }
 
   void forget(LandmarkStore& store) {
-    std::vector<std::uint32_t> outdated;
-    for (const auto& [id, use] : store.uses()) {
-      if (rules_.forgets(use)) outdated.push_back(id);
-    }
+    const auto outdated = use_.outdated(store.uses());
     if (outdated.empty()) return;
     store.remove(outdated);
     context_.log().info(
@@ -181,19 +191,20 @@ class LandmarkStoreComponent final : public runtime::Component {
 
   void on_outcome(const panvo_msgs::msg::CorrectionOutcome& message) {
     if (message.outcome() != panvo_msgs::msg::CorrectionOutcome_Constants::REJECTED) {
-      passes_.recognised(message.landmark_id());
+      use_.recognised(message.landmark_id());
     }
   }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
+    if (finder_) return;
     tell_notices();
     if (has_failed_ || !is_followed() || message.header().frame_id() != parameters_.map_frame) return;
     const auto& covariance = message.pose().covariance();
     if (!(std::sqrt(covariance[0] + covariance[7]) < kMaxSigma_m)) return;
     const auto& position = message.pose().pose().position();
-    auto passes = passes_.move_to({position.x(), position.y()});
+    auto passes = use_.drive_to({position.x(), position.y()});
+    std::erase_if(passes, [this](const auto& pass) { return disputes_.is_disputed(pass.id); });
     if (passes.empty()) return;
-    for (const auto& pass : passes) add(pass, uses_[pass.id]);
     try {
       writer_->write(PassedLandmarks{std::move(passes)});
     } catch (const StoreError& error) {
@@ -202,12 +213,9 @@ class LandmarkStoreComponent final : public runtime::Component {
   }
 
   void tell_notices() {
+    if (!writer_) return;
     for (const auto& notice : writer_->notices()) {
-      if (notice.is_error) {
-        context_.log().error("{}", notice.text);
-      } else {
-        context_.log().info("{}", notice.text);
-      }
+      notice.is_error ? context_.log().error("{}", notice.text) : context_.log().info("{}", notice.text);
     }
   }
 
@@ -216,10 +224,11 @@ class LandmarkStoreComponent final : public runtime::Component {
     context_.log().error("{}. No more landmarks will be stored", error.what());
   }
 
-  void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
+  void on_landmark(const std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>& shared) {
     if (parameters_.read_only) return;
     tell_notices();
     if (has_failed_) return;
+    const auto& message = *shared;
     const auto settings = settings_from_text(message.settings());
     const auto read = to_landmark(message, settings);
     if (!read) {
@@ -228,13 +237,14 @@ class LandmarkStoreComponent final : public runtime::Component {
       return;
     }
     auto landmark = *read;
-    if (map_->map().is_other(landmark)) {
-      context_.log().warn_throttled(fmt::format("landmark {}", landmark.id),
-                                    "landmark {}: its id is that of another one; it is not stored", landmark.id);
+    if (finder_) {
+      early_.push_back(shared);
+      if (finder_->hear(landmark)) settle();
       return;
     }
-    const bool is_new_pose = map_->map().add(landmark);
     try {
+      if (map_->map().is_other(landmark)) return dispute(landmark);
+      const bool is_new_pose = map_->map().add(landmark);
       writer_->require(settings);
       settings_ = settings;
       if (!stored_.contains(landmark.id)) {
@@ -249,9 +259,17 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
   }
 
+  /// Of two that have one id, neither is moved to the place of the other.
+  void dispute(const PanoramicLandmark& other) {
+    context_.log().warn_throttled(fmt::format("landmark {}", other.id),
+                                  "landmark {}: its id is that of another one; it is not stored", other.id);
+    if (const auto back = disputes_.begin({other.id, other.map_from_base, other.covariance})) move({*back});
+  }
+
   void on_moved(std::vector<LandmarkPose> moved) {
     if (parameters_.read_only || has_failed_) return;
-    std::erase_if(moved, [this](const auto& pose) { return !stored_.contains(pose.id); });
+    if (finder_) return finder_->hear(moved);
+    std::erase_if(moved, [this](const auto& pose) { return !stored_.contains(pose.id) || !disputes_.move(pose); });
     if (moved.empty()) return;
     try {
       move(moved);
@@ -265,67 +283,58 @@ class LandmarkStoreComponent final : public runtime::Component {
   void keep(const PanoramicLandmark& landmark) {
     if (!make_room_for(landmark)) return;
     NewLandmark added{landmark, *settings_, std::nullopt};
-    if (is_followed()) {
-      added.use = uses_[landmark.id];
-      added.use->session = run_.session;
-    }
+    if (is_followed()) added.use = LandmarkUse{run_.session};
     // Not remembered, it is not moved later, either: by then, another robot's landmark may have its id.
     if (!writer_->write(added)) return;
-    if (added.use) uses_[landmark.id] = *added.use;
-    remember(landmark.id);
+    remember(map_->map().pose(landmark.id), added.use.value_or(LandmarkUse{}), std::nullopt);
   }
 
   /// Whether a landmark is kept beside those of earlier runs; removes the one that it replaces.
   bool make_room_for(const PanoramicLandmark& landmark) {
     if (!is_followed()) return true;
-    std::vector<std::uint32_t> ids;
-    std::vector<UseRules::Neighbour> neighbours;
-    for (const auto& [id, use] : earlier_) {
-      const Eigen::Vector3d between =
-          map_->map().pose(id).map_from_base.translation() - landmark.map_from_base.translation();
-      if (between.head<2>().norm() > rules_.same_place_m) continue;
-      ids.push_back(id);
-      neighbours.push_back({use, passes_.looks_different(use.session)});
-    }
-    const auto admission = rules_.admit(neighbours);
+    const auto admission = use_.admit(landmark.map_from_base.translation().head<2>());
     if (!admission.is_kept) return false;
-    if (admission.instead_of) {
-      const auto outdated = ids[*admission.instead_of];
-      if (!writer_->write(RemovedLandmark{outdated})) return false;
-      earlier_.erase(outdated);
-      uses_.erase(outdated);
-      stored_.erase(outdated);
+    if (const auto outdated = admission.instead_of) {
+      if (!writer_->write(RemovedLandmark{*outdated})) return false;
+      use_.forget(*outdated);
+      stored_.erase(*outdated);
+      disputes_.forget(*outdated);
     }
-    if (!ids.empty()) context_.log().info("landmark {} is kept beside {} at its place", landmark.id, ids.front());
+    if (admission.beside) {
+      context_.log().info("landmark {} is kept beside {} at its place", landmark.id, *admission.beside);
+    }
     return true;
   }
 
   /// In one transaction, so that the stored map is never partly optimised.
   void move(const std::vector<LandmarkPose>& poses) {
     writer_->write(MovedLandmarks{poses});
-    for (const auto& pose : poses) remember(pose.id);
+    for (const auto& pose : poses) use_.move(pose);
   }
 
-  void remember(std::uint32_t id) {
-    stored_.insert(id);
-    passes_.set_landmark(id, map_->map().pose(id).map_from_base.translation().head<2>(), uses_[id].session);
+  void remember(const LandmarkPose& pose, const LandmarkUse& use, const std::optional<LandmarkUse>& before) {
+    stored_.insert(pose.id);
+    disputes_.keep(pose);
+    use_.add(pose, use, before);
   }
 
   runtime::Context& context_;
-  const Parameters parameters_;
+  const StoreParameters parameters_;
   runtime::Output<panvo_msgs::msg::PanoramicLandmark> output_;
   const StoreLocation location_{parameters_.file};
   StorePatience patience_;
-  std::unique_ptr<StoreWriter> writer_;          // none: nothing is stored
+  std::unique_ptr<LandmarkStore> store_;  // until start()
+  std::unique_ptr<StoreWriter> writer_;   // none: nothing is stored
+  std::atomic<const StoreWriter*> diagnosed_ = nullptr;
   std::optional<DescriptionSettings> settings_;  // of the store, once there is one
   std::optional<MapListener> map_;
   std::set<std::uint32_t> stored_;
-  UseRules rules_;
-  PassCounter passes_;
-  std::map<std::uint32_t, LandmarkUse> uses_;
-  std::map<std::uint32_t, LandmarkUse> earlier_;  // of the landmarks of earlier runs, when this one began
-  StoredRun run_;                                 ///< this one
-  bool is_resumed_ = false;                       ///< goes on after a restart
+  MapUse use_{parameters_.rules()};
+  StoredRun run_;                     ///< this one
+  std::optional<StoredRun> resumed_;  ///< this one as it was before a restart
+  std::optional<RunFinder> finder_;   ///< until it is known whether this run is one of before
+  std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>> early_;  ///< came until then
+  IdDisputes disputes_;
   bool has_failed_ = false;
 };
 

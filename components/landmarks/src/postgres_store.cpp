@@ -186,8 +186,8 @@ class PostgresStore final : public StoreBackend {
     return uses;
   }
 
-  std::optional<StoredRun> find_run(const std::string& id) const override {
-    return repeated([&] { return told([&] { return landmarks::find_run(open(), id); }); });
+  std::vector<StoredRun> runs() const override {
+    return repeated([&] { return told([&] { return runs_in(open()); }); });
   }
   std::size_t size() const override { return number("SELECT count(*) FROM panvo.landmark"); }
   std::int64_t last_id() const override { return static_cast<std::int64_t>(number(kSelectLastId.c_str())); }

@@ -39,15 +39,16 @@ void put_run_id(postgres::Connection& connection, const std::string& run, std::i
       {std::string_view(run), in_run, in_store});
 }
 
-std::optional<StoredRun> find_run(postgres::Connection& connection, const std::string& id) {
-  if (!has_tables_of_runs(connection)) return std::nullopt;
-  const auto row = connection.query("SELECT session, last_id FROM panvo.run WHERE id = $1", {std::string_view(id)});
-  if (row.rows() == 0) return std::nullopt;
-  StoredRun run{id, use_number(row.integer(0, 0)), id_number(row.integer(0, 1)), {}};
-  const auto ids =
-      connection.query("SELECT id_in_run, landmark_id FROM panvo.run_landmark WHERE run = $1", {std::string_view(id)});
-  for (int i = 0; i < ids.rows(); ++i) run.ids.emplace(id_number(ids.integer(i, 0)), id_number(ids.integer(i, 1)));
-  return run;
+std::vector<StoredRun> runs_in(postgres::Connection& connection) {
+  std::vector<StoredRun> runs;
+  if (!has_tables_of_runs(connection)) return runs;
+  const auto row = connection.query(
+      "SELECT run.id, session, last_id, coalesce(id_in_run, 0), coalesce(landmark_id, 0) FROM panvo.run "
+      "LEFT JOIN panvo.run_landmark AS own ON own.run = run.id ORDER BY run.id");
+  for (int i = 0; i < row.rows(); ++i) {
+    add_run_row(runs, row.text(i, 0), {row.integer(i, 1), row.integer(i, 2), row.integer(i, 3), row.integer(i, 4)});
+  }
+  return runs;
 }
 
 }  // namespace panvo::landmarks

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "panvo/landmarks/stored_run.hpp"
 #include "panvo/postgres/connection.hpp"
@@ -20,6 +20,6 @@ void forget_old_writers(postgres::Connection& connection);
 /// As the functions of StoreBackend. A run is forgotten 30 days after it last added a landmark: others are still going on.
 bool put_run(postgres::Connection& connection, const StoredRun& run);
 void put_run_id(postgres::Connection& connection, const std::string& run, std::int64_t in_run, std::int64_t in_store);
-std::optional<StoredRun> find_run(postgres::Connection& connection, const std::string& id);
+std::vector<StoredRun> runs_in(postgres::Connection& connection);
 
 }  // namespace panvo::landmarks

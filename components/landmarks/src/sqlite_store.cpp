@@ -16,6 +16,9 @@ using sqlite::Statement;
 using sqlite::Transaction;
 
 constexpr int kColumns = 21;  // of the table landmark
+constexpr char kSelectRuns[] =
+    "SELECT run.id, session, last_id, coalesce(id_in_run, 0), coalesce(landmark_id, 0) FROM run "
+    "LEFT JOIN run_landmark AS own ON own.run = run.id ORDER BY run.id";
 
 PoseNumbers pose_of(const Statement& row, int first_column) {
   PoseNumbers numbers;
@@ -197,16 +200,15 @@ class SqliteStore final : public StoreBackend {
     });
   }
 
-  std::optional<StoredRun> find_run(const std::string& id) const override {
-    return guarded([&]() -> std::optional<StoredRun> {
-      if (!has("run_landmark")) return std::nullopt;
-      Statement row(*database_, "SELECT session, last_id FROM run WHERE id = ?");
-      if (!row.bind(1, id).step()) return std::nullopt;
-      StoredRun run{id, use_number(row.integer(0)), id_number(row.integer(1)), {}};
-      Statement ids(*database_, "SELECT id_in_run, landmark_id FROM run_landmark WHERE run = ?");
-      ids.bind(1, id);
-      while (ids.step()) run.ids.emplace(id_number(ids.integer(0)), id_number(ids.integer(1)));
-      return run;
+  std::vector<StoredRun> runs() const override {
+    return guarded([&] {
+      std::vector<StoredRun> runs;
+      if (!has("run_landmark")) return runs;
+      Statement row(*database_, kSelectRuns);
+      while (row.step()) {
+        add_run_row(runs, row.text(0), {row.integer(1), row.integer(2), row.integer(3), row.integer(4)});
+      }
+      return runs;
     });
   }
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/landmarks/stored_run.hpp"
@@ -59,7 +59,7 @@ class StoreBackend {
 
   virtual DescriptionSettings settings() const = 0;
   virtual Uses uses() const = 0;
-  virtual std::optional<StoredRun> find_run(const std::string& id) const = 0;
+  virtual std::vector<StoredRun> runs() const = 0;  ///< that are kept
   virtual std::size_t size() const = 0;
   /// The highest id up to interfaces::kMaxLandmarkId that is taken or that was given; 0: none.
   virtual std::int64_t last_id() const = 0;

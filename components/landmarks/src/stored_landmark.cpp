@@ -84,6 +84,11 @@ std::uint32_t id_number(std::int64_t stored) {
   return stored < 0 || stored > interfaces::kMaxLandmarkId ? 0 : static_cast<std::uint32_t>(stored);
 }
 
+void add_run_row(std::vector<StoredRun>& runs, const std::string& run, const std::array<std::int64_t, 4>& row) {
+  if (runs.empty() || runs.back().id != run) runs.push_back({run, use_number(row[0]), id_number(row[1]), {}});
+  if (const auto id = id_number(row[2]); id != 0) runs.back().ids.emplace(id, id_number(row[3]));
+}
+
 std::uint64_t digest_of(const StoredLandmark& stored) {
   std::uint64_t digest = 0xcbf29ce484222325;
   const auto add = [&](const Bytes& bytes) {

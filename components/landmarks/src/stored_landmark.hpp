@@ -4,9 +4,12 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "panvo/landmarks/landmark_use.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
+#include "panvo/landmarks/stored_run.hpp"
 #include "record_bytes.hpp"
 
 /// A landmark as the columns of its rows, which are the same in each kind of store.
@@ -47,6 +50,10 @@ std::uint32_t use_number(std::int64_t stored);
 
 /// An id of a column that may be damaged; 0: none.
 std::uint32_t id_number(std::int64_t stored);
+
+/// A row of a run and of a landmark that it added, if it did: session, last id, id in the run, id in the store. The rows of
+/// one run follow each other.
+void add_run_row(std::vector<StoredRun>& runs, const std::string& run, const std::array<std::int64_t, 4>& row);
 
 /// A number that differs if any bit differs, to compare copies (FNV-1a).
 std::uint64_t digest_of(const StoredLandmark& stored);

@@ -84,6 +84,7 @@ class LandmarkStore {
   std::uint32_t next_session() const;
   /// A run that has begun, with the ids of the landmarks that it added; nullopt if it has not, or was forgotten.
   std::optional<StoredRun> find_run(const std::string& id) const;
+  std::vector<StoredRun> runs() const;  ///< all that are not forgotten
   /// Keeps a run, unless it has begun already, and from now on with each landmark that is added its id in the run. A file
   /// forgets all other runs, as it has one writer; a database those that have added nothing for 30 days.
   void begin_run(const StoredRun& run);

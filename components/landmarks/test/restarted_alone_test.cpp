@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The component LandmarkStoreComponent is restarted in the middle of a run by somebody who does not tell it the run: with
+// another id of the run than before.
+#include "store_life.hpp"
+
+namespace panvo::landmarks {
+namespace {
+
+using namespace test;
+using testing::Pair;
+using testing::UnorderedElementsAre;
+
+class StoreRestartedAlone : public StoreLivesOfEachKind {
+ protected:
+  void SetUp() override {
+    StoreLivesOfEachKind::SetUp();
+    write_two_and_a_damaged_one();
+    Life before(where(), "before");
+    before.publish(third_);
+    before.publish(fourth_);
+  }
+  std::vector<std::pair<std::uint32_t, std::int64_t>> as_before() const {
+    return {{1U, stamp_of(1)}, {2U, stamp_of(2)}, {3U, stamp_of(30)}, {4U, stamp_of(40)}};
+  }
+  /// The other components go on with the ids that they have.
+  void expect_moved_and_added() const {
+    const LandmarkStore store(where());
+    ASSERT_EQ(store.size(), 6U);
+    EXPECT_EQ(x_of(3), made_up_landmark(3).map_from_base.translation().x());
+    EXPECT_EQ(difference(whole(store, 4), with_id(4, moved_by(2.0, third_))), "");
+    EXPECT_EQ(difference(whole(store, 5), with_id(5, moved_by(7.0, fourth_))), "");
+    EXPECT_EQ(difference(whole(store, 6), with_id(6, made_up_landmark(50))), "");
+    EXPECT_EQ(store.uses().at(6).session, 1U) << "one run";
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, StoreRestartedAlone, testing::Bool(),
+                         [](const auto& of) { return of.param ? "Server" : "File"; });
+
+TEST_P(StoreRestartedAlone, GoesOnWithTheRunOfTheBuilder) {
+  {
+    Life after(where(), "after");
+    after.publish_poses({moved_by(2.0, third_), moved_by(7.0, fourth_)});
+    after.publish(third_);  // as latched messages come again
+    after.publish(fourth_);
+    after.publish(with_id(5, made_up_landmark(50)));
+    EXPECT_THAT(after.distinct_ids(),
+                UnorderedElementsAre(Pair(1U, stamp_of(1)), Pair(2U, stamp_of(2)), Pair(3U, stamp_of(30)),
+                                     Pair(4U, stamp_of(40)), Pair(5U, stamp_of(50))));
+  }
+  expect_moved_and_added();
+}
+
+TEST_P(StoreRestartedAlone, GoesOnWithTheRunOfTheLocalizer) {
+  {
+    Life after(where(), "after");
+    after.publish_poses({third_, fourth_});  // as optimised before; the builder was restarted, too
+    after.wait();
+    EXPECT_THAT(after.distinct_ids(),
+                UnorderedElementsAre(as_before()[0], as_before()[1], as_before()[2], as_before()[3]));
+    after.publish_poses({moved_by(2.0, third_), moved_by(7.0, fourth_)});
+    after.publish(with_id(5, made_up_landmark(50)));
+  }
+  expect_moved_and_added();
+}
+
+TEST_P(StoreRestartedAlone, BeginsAnewWhereAnotherBuilderCountsFromOne) {
+  const auto other = with_id(3, made_up_landmark(60));
+  {
+    Life after(where(), "after");
+    after.publish_poses({other});
+    after.publish(other);
+    after.wait();
+    EXPECT_THAT(after.distinct_ids(),
+                UnorderedElementsAre(Pair(3U, stamp_of(60)), Pair(1U, stamp_of(1)), Pair(2U, stamp_of(2)),
+                                     Pair(4U, stamp_of(30)), Pair(5U, stamp_of(40))));
+  }
+  const LandmarkStore store(where());
+  ASSERT_EQ(store.size(), 6U);
+  EXPECT_EQ(difference(whole(store, 6), with_id(6, made_up_landmark(60))), "");
+  EXPECT_EQ(store.uses().at(6).session, 2U);
+}
+
+TEST_P(StoreRestartedAlone, MovesNoLandmarkToThePlaceOfAnotherOfTheSameId) {
+  const auto other = with_id(1, made_up_landmark(10));  // built before the store was there
+  const auto first = made_up_landmark(1);
+  for (const bool are_poses_first : {false, true}) {
+    Life after(where(), "after");
+    after.wait();
+    if (are_poses_first) after.publish_poses({other});
+    after.publish(other);
+    after.publish_poses({moved_by(1.0, other)});
+  }
+  EXPECT_EQ(x_of(1), first.map_from_base.translation().x());
+  {
+    Life after(where(), "after");
+    after.wait();
+    after.publish(other);
+    after.publish_poses({moved_by(1.0, first)});  // the localizer has heard of the store's one first
+  }
+  EXPECT_EQ(x_of(1), first.map_from_base.translation().x() + 1.0);
+}
+
+}  // namespace
+}  // namespace panvo::landmarks
