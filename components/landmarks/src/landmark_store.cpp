@@ -155,6 +155,7 @@ void LandmarkStore::count(std::span<const LandmarkPass> passes) {
   backend_->transact([&] {
     for (const auto& [id, of_one] : by_id) {
       auto use = backend_->use_to_change(id);
+      if (!run_.empty()) backend_->put_missed(run_, id, use.missed);
       for (const auto& pass : of_one) panvo::landmarks::add(pass, use);
       backend_->put_use(id, use);
     }

@@ -166,7 +166,10 @@ class LandmarkStoreComponent final : public runtime::Component {
       map_->map().add(landmark);
       const auto found_use = uses.find(stored_id);
       const auto use = found_use == uses.end() ? LandmarkUse{} : found_use->second;
-      remember(map_->map().pose(landmark.id), use, is_own ? std::nullopt : std::optional(use));
+      auto before = use;
+      // What this drive has missed since it began counts once, with the next miss.
+      if (const auto missed = run_.missed.find(stored_id); missed != run_.missed.end()) before.missed = missed->second;
+      remember(map_->map().pose(landmark.id), use, is_own ? std::nullopt : std::optional(before));
       // The topic is latched, so subscribers may join later.
       output_.publish(to_message(landmark, store.settings(), parameters_.map_frame));
       ++loaded;

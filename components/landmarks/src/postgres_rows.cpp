@@ -32,6 +32,15 @@ const char* const kSelectWholeLandmarks =
 const std::string kSelectLastId = "SELECT greatest(last_id, (SELECT max(id) FROM panvo.landmark WHERE id <= " +
                                   std::to_string(interfaces::kMaxLandmarkId) + ")) FROM panvo.store";
 
+std::map<std::uint32_t, LandmarkUse> uses_in(const postgres::Result& rows) {
+  std::map<std::uint32_t, LandmarkUse> uses;
+  for (int i = 0; i < rows.rows(); ++i) {
+    const auto column = [&](int j) { return use_number(rows.integer(i, j)); };
+    uses[static_cast<std::uint32_t>(rows.integer(i, 0))] = {column(1), column(2), column(3), column(4), column(5)};
+  }
+  return uses;
+}
+
 StoredLandmark landmark_in(const postgres::Result& rows, int row, bool is_whole) {
   StoredLandmark landmark;
   landmark.id = rows.integer(row, 0);

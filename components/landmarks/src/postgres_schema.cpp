@@ -41,11 +41,14 @@ constexpr const char* kMigrations[] = {kLayout1};
 // Stores of earlier versions get these tables with the first run of a version that has them. Those versions go on beside
 // it without them, so that the layout is the same. A landmark may be removed that a run still has an id for.
 constexpr const char* kRunTables = R"(
-CREATE TABLE panvo.run(
+CREATE TABLE IF NOT EXISTS panvo.run(
   id text PRIMARY KEY, session bigint NOT NULL, last_id bigint NOT NULL, at timestamptz NOT NULL DEFAULT now());
-CREATE TABLE panvo.run_landmark(
+CREATE TABLE IF NOT EXISTS panvo.run_landmark(
   run text NOT NULL REFERENCES panvo.run ON DELETE CASCADE, id_in_run bigint NOT NULL, landmark_id bigint NOT NULL,
   PRIMARY KEY(run, id_in_run));
+CREATE TABLE panvo.run_missed(
+  run text NOT NULL REFERENCES panvo.run ON DELETE CASCADE, landmark_id bigint NOT NULL, missed bigint NOT NULL,
+  PRIMARY KEY(run, landmark_id));
 )";
 
 // Any number that no other program is likely to use: "panvo", as a lock of the database.
@@ -83,17 +86,17 @@ void migrate(postgres::Connection& connection, const std::string& name, std::spa
 bool has_tables_of_runs(postgres::Connection& connection) {
   const auto usable = connection.query(
       "SELECT count(*) FROM pg_catalog.pg_class WHERE oid IN (to_regclass('panvo.run'), "
-      "to_regclass('panvo.run_landmark')) "
+      "to_regclass('panvo.run_landmark'), to_regclass('panvo.run_missed')) "
       "AND has_table_privilege(oid, 'SELECT') AND has_table_privilege(oid, 'INSERT') "
       "AND has_table_privilege(oid, 'UPDATE') AND has_table_privilege(oid, 'DELETE')");
-  return usable.integer(0, 0) == 2;
+  return usable.integer(0, 0) == 3;
 }
 
 bool make_tables_of_runs(postgres::Connection& connection) {
   if (has_tables_of_runs(connection)) return true;
   connection.execute(kLockMigration);  // another may begin at the same time
   const auto free = connection.query(
-      "SELECT count(*) WHERE to_regclass('panvo.run') IS NULL AND has_schema_privilege('panvo', 'CREATE')");
+      "SELECT count(*) WHERE to_regclass('panvo.run_missed') IS NULL AND has_schema_privilege('panvo', 'CREATE')");
   if (free.integer(0, 0) > 0) connection.execute(kRunTables);
   return has_tables_of_runs(connection);
 }

@@ -152,6 +152,9 @@ class PostgresStore final : public StoreBackend {
   void put_run_id(const std::string& run, std::int64_t in_run, std::int64_t in_store) override {
     told([&] { landmarks::put_run_id(*connection_, run, in_run, in_store); });
   }
+  void put_missed(const std::string& run, std::int64_t id, std::int64_t missed) override {
+    told([&] { landmarks::put_missed(*connection_, run, id, missed); });
+  }
 
   std::uint32_t next_session() override {
     std::int64_t session = 0;
@@ -176,14 +179,7 @@ class PostgresStore final : public StoreBackend {
   Uses uses() const override {
     const auto rows =
         read("SELECT landmark_id, session, passes, recognitions, missed, missed_in_company FROM panvo.landmark_use");
-    Uses uses;
-    told([&] {
-      for (int i = 0; i < rows.rows(); ++i) {
-        const auto column = [&](int j) { return use_number(rows.integer(i, j)); };
-        uses[static_cast<std::uint32_t>(rows.integer(i, 0))] = {column(1), column(2), column(3), column(4), column(5)};
-      }
-    });
-    return uses;
+    return told([&] { return uses_in(rows); });
   }
 
   std::vector<StoredRun> runs() const override {

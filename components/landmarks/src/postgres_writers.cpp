@@ -39,6 +39,13 @@ void put_run_id(postgres::Connection& connection, const std::string& run, std::i
       {std::string_view(run), in_run, in_store});
 }
 
+void put_missed(postgres::Connection& connection, const std::string& run, std::int64_t id, std::int64_t missed) {
+  connection.query(
+      "INSERT INTO panvo.run_missed SELECT id, $2, $3 FROM panvo.run WHERE id = $1 ON CONFLICT(run, landmark_id) DO "
+      "NOTHING",
+      {std::string_view(run), id, missed});
+}
+
 std::vector<StoredRun> runs_in(postgres::Connection& connection) {
   std::vector<StoredRun> runs;
   if (!has_tables_of_runs(connection)) return runs;
@@ -48,6 +55,9 @@ std::vector<StoredRun> runs_in(postgres::Connection& connection) {
   for (int i = 0; i < row.rows(); ++i) {
     add_run_row(runs, row.text(i, 0), {row.integer(i, 1), row.integer(i, 2), row.integer(i, 3), row.integer(i, 4)});
   }
+  const auto missed = connection.query("SELECT run, landmark_id, missed FROM panvo.run_missed");
+  for (int i = 0; i < missed.rows(); ++i)
+    add_missed(runs, missed.text(i, 0), missed.integer(i, 1), missed.integer(i, 2));
   return runs;
 }
 

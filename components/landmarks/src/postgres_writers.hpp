@@ -20,6 +20,7 @@ void forget_old_writers(postgres::Connection& connection);
 /// As the functions of StoreBackend. A run is forgotten 30 days after it last added a landmark: others are still going on.
 bool put_run(postgres::Connection& connection, const StoredRun& run);
 void put_run_id(postgres::Connection& connection, const std::string& run, std::int64_t in_run, std::int64_t in_store);
+void put_missed(postgres::Connection& connection, const std::string& run, std::int64_t id, std::int64_t missed);
 std::vector<StoredRun> runs_in(postgres::Connection& connection);
 
 }  // namespace panvo::landmarks

@@ -151,6 +151,7 @@ class SqliteStore final : public StoreBackend {
       make_tables_of_runs(*database_);
       Statement(*database_, "DELETE FROM run WHERE id <> ?").bind(1, run.id).run();
       Statement(*database_, "DELETE FROM run_landmark WHERE run <> ?").bind(1, run.id).run();
+      Statement(*database_, "DELETE FROM run_missed WHERE run <> ?").bind(1, run.id).run();
       Statement(*database_, "INSERT OR IGNORE INTO run VALUES(?, ?, ?)")
           .bind(1, run.id)
           .bind(2, std::int64_t{run.session})
@@ -166,6 +167,16 @@ class SqliteStore final : public StoreBackend {
           .bind(1, run)
           .bind(2, in_run)
           .bind(3, in_store)
+          .run();
+    });
+  }
+
+  void put_missed(const std::string& run, std::int64_t id, std::int64_t missed) override {
+    guarded([&] {
+      Statement(*database_, "INSERT OR IGNORE INTO run_missed VALUES(?, ?, ?)")
+          .bind(1, run)
+          .bind(2, id)
+          .bind(3, missed)
           .run();
     });
   }
@@ -203,11 +214,13 @@ class SqliteStore final : public StoreBackend {
   std::vector<StoredRun> runs() const override {
     return guarded([&] {
       std::vector<StoredRun> runs;
-      if (!has("run_landmark")) return runs;
+      if (!has("run_missed")) return runs;
       Statement row(*database_, kSelectRuns);
       while (row.step()) {
         add_run_row(runs, row.text(0), {row.integer(1), row.integer(2), row.integer(3), row.integer(4)});
       }
+      Statement missed(*database_, "SELECT run, landmark_id, missed FROM run_missed");
+      while (missed.step()) add_missed(runs, missed.text(0), missed.integer(1), missed.integer(2));
       return runs;
     });
   }

@@ -53,6 +53,8 @@ class StoreBackend {
   virtual bool put_run(const StoredRun& run) = 0;
   /// Keeps the id of a landmark in a run that is kept.
   virtual void put_run_id(const std::string& run, std::int64_t in_run, std::int64_t in_store) = 0;
+  /// Keeps how many drives had missed a landmark before a run that is kept, unless that is kept already.
+  virtual void put_missed(const std::string& run, std::int64_t id, std::int64_t missed) = 0;
 
   /// The number of a run that begins now. A server never gives it twice.
   virtual std::uint32_t next_session() = 0;

@@ -47,6 +47,8 @@ CREATE TABLE IF NOT EXISTS run(
   id TEXT PRIMARY KEY NOT NULL, session INTEGER NOT NULL, last_id INTEGER NOT NULL) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS run_landmark(
   run TEXT NOT NULL, id_in_run INTEGER NOT NULL, landmark_id INTEGER NOT NULL, PRIMARY KEY(run, id_in_run)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS run_missed(
+  run TEXT NOT NULL, landmark_id INTEGER NOT NULL, missed INTEGER NOT NULL, PRIMARY KEY(run, landmark_id)) WITHOUT ROWID;
 )";
 
 /// "truncated after ... of ... bytes" if the file is shorter than its header states; else empty. Uses SQLite's file

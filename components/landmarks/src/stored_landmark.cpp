@@ -89,6 +89,11 @@ void add_run_row(std::vector<StoredRun>& runs, const std::string& run, const std
   if (const auto id = id_number(row[2]); id != 0) runs.back().ids.emplace(id, id_number(row[3]));
 }
 
+void add_missed(std::vector<StoredRun>& runs, const std::string& run, std::int64_t id, std::int64_t missed) {
+  const auto of = std::ranges::find(runs, run, &StoredRun::id);
+  if (of != runs.end()) of->missed.emplace(id_number(id), use_number(missed));
+}
+
 std::uint64_t digest_of(const StoredLandmark& stored) {
   std::uint64_t digest = 0xcbf29ce484222325;
   const auto add = [&](const Bytes& bytes) {

@@ -55,6 +55,9 @@ std::uint32_t id_number(std::int64_t stored);
 /// one run follow each other.
 void add_run_row(std::vector<StoredRun>& runs, const std::string& run, const std::array<std::int64_t, 4>& row);
 
+/// How often a landmark was missed before a run, if that is one of these.
+void add_missed(std::vector<StoredRun>& runs, const std::string& run, std::int64_t id, std::int64_t missed);
+
 /// A number that differs if any bit differs, to compare copies (FNV-1a).
 std::uint64_t digest_of(const StoredLandmark& stored);
 

@@ -86,6 +86,34 @@ TEST_P(RestartedStoreOfEachKind, CountsNoPassThatTheRestartCutInTwo) {
   EXPECT_EQ(LandmarkStore(where()).uses().at(1), (LandmarkUse{1, 0, 0, 0, 0})) << "the drive that built it";
 }
 
+/// Missed on two drives before, and on this one: another appearance is kept from the fourth on.
+TEST_P(RestartedStoreOfEachKind, CountsTheMissOfOneDriveOnce) {
+  const auto landmark = made_up_landmark(1);
+  LandmarkStore(where(), made_up_settings()).add(landmark);
+  LandmarkStore(where(), made_up_settings()).set_uses({{1, {1, 9, 7, 2, 0}}});
+  const auto miss = [&](Life& life) {
+    for (const Eigen::Vector3d& position : {Eigen::Vector3d(1e5, 1e5, 0.0), landmark.map_from_base.translation().eval(),
+                                            Eigen::Vector3d(1e5, 1e5, 0.0)}) {
+      life.drive_to(position);
+    }
+  };
+  auto today = moved_by(3.0, landmark);
+  today.id = 2;
+  today.stamp_ns += 1;
+  for (int life = 0; life < 3; ++life) {
+    Life restarted(where(), "run");
+    miss(restarted);
+    restarted.publish(today);
+  }
+  EXPECT_EQ(LandmarkStore(where()).uses().at(1), (LandmarkUse{1, 12, 7, 5, 0}));
+  EXPECT_EQ(LandmarkStore(where()).size(), 1U);
+  {
+    Life next(where(), "next");
+    next.publish(today);
+  }
+  EXPECT_EQ(LandmarkStore(where()).size(), 2U);
+}
+
 TEST_P(RestartedStoreOfEachKind, TakesNoLandmarkForAnotherOfTheSameId) {
   const auto first = made_up_landmark(1);
   const auto other = with_id(1, made_up_landmark(10));  // of a builder that was restarted and counts from 1 again

@@ -16,6 +16,8 @@ struct StoredRun {
   /// that others have added since.
   std::uint32_t last_id = 0;
   std::map<std::uint32_t, std::uint32_t> ids;  ///< in the store, of the landmarks that it stored, by its own ones
+  /// Drives in a row that had missed a landmark before the run began, by ids in the store, of those that it has passed.
+  std::map<std::uint32_t, std::uint32_t> missed{};
 };
 
 }  // namespace panvo::landmarks
