@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "fleet_messages.hpp"
 #include "fleet_pose_publisher.hpp"
@@ -19,6 +20,7 @@
 #include "panvo/fleet/fleet.hpp"
 #include "panvo/interfaces/fleet_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
+#include "panvo/landmarks/id_disputes.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/map_listener.hpp"
 #include "panvo/landmarks/panorama_level.hpp"
@@ -74,9 +76,6 @@ class FleetComponent final : public runtime::Component {
         describer_(parameters_.description, static_cast<std::uint64_t>(parameters_.description_seed)),
         settings_(landmarks::landmark_settings(parameters_.description, parameters_.keypoints,
                                                static_cast<std::uint64_t>(parameters_.description_seed))),
-        own_keypoints_(std::make_shared<position_corrector::SpilledLandmarks>(parameters_.spill_folder)),
-        fleet_({parameters_.sharing, parameters_.members, parameters_.recognition, parameters_.join}, parameters_.robot,
-               parameters_.keypoints, describer_, settings_, own_keypoints_, &timer_),
         members_(context.output(topics::kFleetMembers)),
         places_(context.output(topics::kFleetPlaces)),
         requests_(context.output(topics::kFleetRequests)),
@@ -84,7 +83,8 @@ class FleetComponent final : public runtime::Component {
         state_(context.output(topics::kFleetState)),
         pose_(context, parameters_.fleet_frame),
         transforms_(context),
-        map_(context, [this](const auto& moved) { fleet_.move_places(moved); }) {
+        map_(context, [this](const auto& moved) { on_moved(moved); }) {
+    begin();
     if (parameters_.robot.empty()) {
       throw runtime::ConfigError(context.name() + ": robot is empty: give each robot a name of its own, robot:=NAME");
     }
@@ -100,10 +100,12 @@ class FleetComponent final : public runtime::Component {
     context.every(std::chrono::milliseconds(kTick_ms), [this] { on_tick(); });
     context.on_diagnostics([this] { return diagnostics(); });
     context.on_end([this] { report(); });
-    context.log().info("this robot is {}", fleet_.robot());
+    context.log().info("this robot is {}", fleet_->robot());
   }
 
  private:
+  /// Landmarks of a map that may have begun anew: the localizer's poses come with each, and tell it soon.
+  static constexpr std::size_t kMaxRefused = 100;
   static constexpr int kTick_ms = 200;
   static constexpr int kStateTicks = 5;
 
@@ -113,15 +115,44 @@ class FleetComponent final : public runtime::Component {
       return context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {}; not shared",
                                            read.reason());
     }
-    auto landmark = *read;
-    if (map_.map().is_other(landmark)) {
-      return context_.log().warn_throttled(fmt::format("landmark {}", landmark.id),
-                                           "landmark {}: its id is that of another one; not shared", landmark.id);
-    }
+    const bool is_other = map_.map().is_other(*read);
+    if ((is_other || !since_refused_.empty()) && since_refused_.size() < kMaxRefused) since_refused_.push_back(*read);
+    if (!is_other) return add(*read);
+    context_.log().warn_throttled(fmt::format("landmark {}", read->id),
+                                  "landmark {}: its id is that of another one; not shared", read->id);
+    if (disputes_.begin({read->id, read->map_from_base, read->covariance})) begin_anew({});
+  }
+
+  void add(landmarks::PanoramicLandmark landmark) {
     map_.map().add(landmark);
+    disputes_.keep({landmark.id, landmark.map_from_base, landmark.covariance});
     base_from_panorama_ = landmark.base_from_panorama;
     own_keypoints_->put(landmark.id, landmark.keypoints);
-    fleet_.add_place(std::move(landmark));
+    fleet_->add_place(std::move(landmark));
+  }
+
+  void on_moved(const std::vector<landmarks::LandmarkPose>& moved) {
+    bool is_of_another_map = false;
+    for (const auto& pose : moved) is_of_another_map |= !disputes_.move(pose);
+    if (is_of_another_map) return begin_anew(moved);
+    fleet_->move_places(moved);
+  }
+
+  void begin() {
+    own_keypoints_ = std::make_shared<position_corrector::SpilledLandmarks>(parameters_.spill_folder);
+    fleet_.emplace(FleetParameters{parameters_.sharing, parameters_.members, parameters_.recognition, parameters_.join},
+                   parameters_.robot, parameters_.keypoints, describer_, settings_, own_keypoints_, &timer_);
+  }
+
+  /// The robot's other components were restarted and have begun a map: the landmarks that were refused are its own, and the
+  /// localizer's poses are theirs. For the fleet, this robot was restarted, too.
+  void begin_anew(const std::vector<landmarks::LandmarkPose>& poses) {
+    context_.log().warn("the map of this robot has begun anew: it is shared as another one");
+    begin();
+    disputes_ = {};
+    map_.map() = {};
+    map_.map().move(poses);
+    for (auto& landmark : std::exchange(since_refused_, {})) add(std::move(landmark));
   }
 
   /// A pose that is not known in the own map says nothing of other maps.
@@ -137,9 +168,9 @@ class FleetComponent final : public runtime::Component {
     const auto& linear = message.twist().twist().linear();
     const double speed = std::hypot(linear.x(), linear.y(), linear.z());
     const auto covariance = conversions::to_matrix(message.pose().covariance());
-    fleet_.add_pose(conversions::stamp_ns(message), *pose, covariance, std::isfinite(speed) ? speed : 0.0);
+    fleet_->add_pose(conversions::stamp_ns(message), *pose, covariance, std::isfinite(speed) ? speed : 0.0);
     use_waiting();
-    pose_.publish(message, *pose, covariance, fleet_);
+    pose_.publish(message, *pose, covariance, *fleet_);
   }
 
   /// A panorama waits for the pose of its stamp; only the latest one does.
@@ -149,7 +180,7 @@ class FleetComponent final : public runtime::Component {
   }
 
   void use_waiting() {
-    if (!waiting_ || !fleet_.has_pose_at(conversions::stamp_ns(*waiting_))) return;
+    if (!waiting_ || !fleet_->has_pose_at(conversions::stamp_ns(*waiting_))) return;
     const auto message = std::exchange(waiting_, nullptr);
     const auto panorama = conversions::grey(*message);
     if (!panorama) {
@@ -164,7 +195,7 @@ class FleetComponent final : public runtime::Component {
       level_ = landmarks::PanoramaLevel(base_from_panorama);
     }
     if (const auto fault =
-            fleet_.add_panorama(conversions::stamp_ns(*message), level_.level(*panorama), level_.base_from_level())) {
+            fleet_->add_panorama(conversions::stamp_ns(*message), level_.level(*panorama), level_.base_from_level())) {
       context_.log().warn_throttled(*fault, "{} {}", context_.resolved_name(topics::kPanorama), *fault);
     }
     send();
@@ -173,7 +204,7 @@ class FleetComponent final : public runtime::Component {
   /// Whether another robot sent the message: what a component publishes it also receives.
   template <class Message>
   bool is_of_other(const Message& message) {
-    if (message.robot() == fleet_.robot()) return false;
+    if (message.robot() == fleet_->robot()) return false;
     received_.add(context_.passing_ns(), interfaces::message_type<Message>().serialized_size(&message));
     return true;
   }
@@ -188,36 +219,36 @@ class FleetComponent final : public runtime::Component {
 
   void on_member(const panvo_msgs::msg::FleetMember& message) {
     is_of_other(message);  // one of the own name may be another robot's
-    note(topics::kFleetMembers, message.robot(), fleet_.hear(to_announcement(message), context_.passing_ns()));
+    note(topics::kFleetMembers, message.robot(), fleet_->hear(to_announcement(message), context_.passing_ns()));
   }
 
   void on_places(const panvo_msgs::msg::FleetPlaces& message) {
     if (!is_of_other(message)) return;
     const auto changes = to_changes(message, settings_);
     note(topics::kFleetPlaces, message.robot(),
-         changes ? fleet_.take(message.robot(), *changes, context_.passing_ns()) : std::optional(changes.reason()));
+         changes ? fleet_->take(message.robot(), *changes, context_.passing_ns()) : std::optional(changes.reason()));
   }
 
   void on_request(const panvo_msgs::msg::FleetRequest& message) {
     if (!is_of_other(message)) return;
     note(topics::kFleetRequests, message.robot(),
-         fleet_.answer(message.robot(), to_request(message), context_.passing_ns()));
+         fleet_->answer(message.robot(), to_request(message), context_.passing_ns()));
     send();
   }
 
   void on_keypoints(const panvo_msgs::msg::FleetKeypoints& message) {
     if (!is_of_other(message)) return;
-    note(topics::kFleetKeypoints, message.robot(), fleet_.take(message.robot(), to_answer(message)));
+    note(topics::kFleetKeypoints, message.robot(), fleet_->take(message.robot(), to_answer(message)));
     send();
   }
 
   void on_tick() {
     {
       const vision::Stage stage(&timer_, "join");
-      fleet_.advance(context_.passing_ns());
+      fleet_->advance(context_.passing_ns());
     }
     send();
-    for (const auto& news : fleet_.take_news()) {
+    for (const auto& news : fleet_->take_news()) {
       context_.log().info("{}", news);
       ticks_since_state_ = kStateTicks;
     }
@@ -225,8 +256,8 @@ class FleetComponent final : public runtime::Component {
   }
 
   void send() {
-    const Sender sender{fleet_.robot(), parameters_.map_frame, context_.now_ns()};
-    while (const auto message = fleet_.next(context_.passing_ns())) {
+    const Sender sender{fleet_->robot(), parameters_.map_frame, context_.now_ns()};
+    while (const auto message = fleet_->next(context_.passing_ns())) {
       std::visit([&](const auto& content) { publish(to_message(content, sender)); }, *message);
     }
   }
@@ -239,14 +270,14 @@ class FleetComponent final : public runtime::Component {
   template <class Message>
   void publish(runtime::Output<Message>& output, Message message) {
     const auto bytes = interfaces::message_type<Message>().serialized_size(&message);
-    fleet_.sent(bytes);
+    fleet_->sent(bytes);
     sent_.add(context_.passing_ns(), bytes);
     output.publish(std::move(message));
   }
 
   void publish_state() {
     ticks_since_state_ = 0;
-    auto state = to_state(fleet_, parameters_.fleet_frame, context_.now_ns());
+    auto state = to_state(*fleet_, parameters_.fleet_frame, context_.now_ns());
     state.bytes_sent(sent_.total());
     state.bytes_received(received_.total());
     state.bytes_per_s(sent_.per_s(context_.passing_ns()));
@@ -255,24 +286,24 @@ class FleetComponent final : public runtime::Component {
     bytes_sent_ = state.bytes_sent();
     bytes_received_ = state.bytes_received();
     bytes_per_s_ = state.bytes_per_s();
-    robots_ = fleet_.members().present().size();
-    joined_ = fleet_.frame().own_from.size();
+    robots_ = fleet_->members().present().size();
+    joined_ = fleet_->frame().own_from.size();
     state_.publish(std::move(state));
   }
 
   void report() const {
-    const auto& counts = fleet_.counts();
+    const auto& counts = fleet_->counts();
     context_.log().info(
         "{:.1f} kB sent, {:.1f} kB received; {} panoramas compared with {} places, {} candidates, {} verified, {} "
         "recognised; {} joins made, {} undone",
         1e-3 * static_cast<double>(sent_.total()), 1e-3 * static_cast<double>(received_.total()), counts.panoramas,
-        counts.compared, counts.candidates, counts.verified, counts.recognised, fleet_.evidence().made(),
-        fleet_.evidence().undone());
+        counts.compared, counts.candidates, counts.verified, counts.recognised, fleet_->evidence().made(),
+        fleet_->evidence().undone());
   }
 
   /// Called on another thread.
   runtime::DiagnosticValues diagnostics() const {
-    return {{"robot", fleet_.robot()},
+    return {{"robot", parameters_.robot},
             {"other robots", std::to_string(robots_)},
             {"joined maps", std::to_string(joined_)},
             {"bytes sent", std::to_string(bytes_sent_)},
@@ -286,7 +317,7 @@ class FleetComponent final : public runtime::Component {
   const landmarks::PanoramaDescriber describer_;
   const landmarks::DescriptionSettings settings_;
   std::shared_ptr<position_corrector::SpilledLandmarks> own_keypoints_;
-  Fleet fleet_;
+  std::optional<Fleet> fleet_;  // always there
   runtime::Output<panvo_msgs::msg::FleetMember> members_;
   runtime::Output<panvo_msgs::msg::FleetPlaces> places_;
   runtime::Output<panvo_msgs::msg::FleetRequest> requests_;
@@ -295,6 +326,8 @@ class FleetComponent final : public runtime::Component {
   FleetPosePublisher pose_;
   conversions::TransformListener transforms_;
   landmarks::MapListener map_;
+  landmarks::IdDisputes disputes_;
+  std::vector<landmarks::PanoramicLandmark> since_refused_;  // the first one of the id of another one, and all after it
 
   Eigen::Isometry3d base_from_panorama_ = Eigen::Isometry3d::Identity();
   landmarks::PanoramaLevel level_;

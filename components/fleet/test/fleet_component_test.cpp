@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -56,17 +57,19 @@ class Drives final : public runtime::Component, public runtime::Source {
     });
   }
 
-  /// One place a second, from `begin_s` on; `clock_s`: offset of the robot's clock.
-  void drive(const std::string& robot, const Eigen::Isometry3d& map_from_world, double begin_s, double clock_s = 0.0) {
+  /// One place a second, from `begin_s` on; `clock_s`: offset of the robot's clock; backwards: from the last place on.
+  void drive(const std::string& robot, const Eigen::Isometry3d& map_from_world, double begin_s, double clock_s = 0.0,
+             bool is_backwards = false) {
     static const PaintedRoad road(kPlaces);
     static const landmarks::PanoramaDescriber describer({}, 1);
     auto& names = names_.try_emplace(robot, robot).first->second;
     auto landmarks = context_.output(interfaces::Topic<panvo_msgs::msg::PanoramicLandmark>{names.landmarks});
     auto odometry = context_.output(interfaces::Topic<nav_msgs::msg::Odometry>{names.odometry});
     auto panoramas = context_.output(interfaces::Topic<sensor_msgs::msg::Image>{names.panorama});
-    for (int place = 0; place < kPlaces; ++place) {
-      const double t_s = begin_s + place;
-      auto landmark = road.landmark(place, static_cast<std::uint32_t>(place) + 1, map_from_world, describer);
+    for (int i = 0; i < kPlaces; ++i) {
+      const double t_s = begin_s + i;
+      const int place = is_backwards ? kPlaces - 1 - i : i;
+      auto landmark = road.landmark(place, static_cast<std::uint32_t>(i) + 1, map_from_world, describer);
       landmark.stamp_ns = stamp_ns(t_s + clock_s);
       const auto landmark_message = landmarks::to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map");
       auto image = conversions::make_image(landmark.stamp_ns, "panorama", "mono8", 1080, 540);
@@ -84,6 +87,18 @@ class Drives final : public runtime::Component, public runtime::Source {
         odometry.publish(pose);
       });
     }
+  }
+  /// The localizer of a robot has the first places there.
+  void say_poses(const std::string& robot, const Eigen::Isometry3d& map_from_world, double t_s, int places = 1) {
+    auto output = context_.output(interfaces::Topic<panvo_msgs::msg::LandmarkPoses>{"/" + robot + "/landmarks/poses"});
+    panvo_msgs::msg::LandmarkPoses message;
+    for (int place = 0; place < places; ++place) {
+      message.ids().push_back(static_cast<std::uint32_t>(place) + 1);
+      auto& pose = message.poses().emplace_back();
+      pose.pose(conversions::to_pose(map_from_world * PaintedRoad::world_from_base(place)));
+      pose.covariance(conversions::to_array(covariance_of(0.02, 0.001)));
+    }
+    at(t_s, [=]() mutable { output.publish(message); });
   }
   void at(double t_s, std::function<void()> event) { events_.emplace(stamp_ns(t_s), std::move(event)); }
   /// Time passes; timers run.
@@ -213,9 +228,36 @@ TEST_F(FleetOfComponents, SharesNoLandmarkOfWhichAnotherHasTheId) {
   load("one", "one");
   drives_->pause(0.0, 20.0);
   drives_->drive("one", flat(0, 0, 0), 1.0);
-  drives_->drive("one", flat(500, 0, 0), 10.0);  // of a builder that was restarted and counts from 1 again
+  drives_->drive("one", flat(500, 0, 0), 10.0);               // of a builder that was restarted and counts from 1 again
+  drives_->say_poses("one", flat(0.1, 0, 0), 10.5, kPlaces);  // the localizer was not
   ASSERT_THAT(harness_.container().run(), IsEmpty());
   EXPECT_TRUE(harness_.log_contains("landmark 1: its id is that of another one; not shared"));
+  EXPECT_FALSE(harness_.log_contains("has begun anew"));
+}
+
+/// All components of a robot but this one are restarted and count places from 1 again, in another map.
+TEST_F(FleetOfComponents, SharesTheMapThatItsRobotHasBegunAnew) {
+  load("one", "one");
+  load("two", "two");
+  const auto first = flat(0, 0, 0), second = flat(500, 0, 0), map_of_two = flat(9, 4, 1);
+  drives_->pause(0.0, 30.0);
+  drives_->drive("one", first, 1.0, 0.0, true);
+  drives_->drive("one", second, 10.0);
+  for (int place = 0; place < kPlaces; ++place) drives_->say_poses("one", second, 10.1 + place, place + 1);
+  drives_->drive("two", map_of_two, 18.0);
+  const auto& of_one = harness_.collect(interfaces::Topic<panvo_msgs::msg::FleetState>{"/one/fleet/state"});
+  const auto& of_two = harness_.collect(interfaces::Topic<panvo_msgs::msg::FleetState>{"/two/fleet/state"});
+  ASSERT_THAT(harness_.container().run(), IsEmpty());
+
+  const auto& peers = of_two.back()->peers();
+  const auto one = std::find_if(peers.begin(), peers.end(),
+                                [&](const auto& peer) { return peer.map_id() == of_one.back()->map_id(); });
+  ASSERT_NE(one, peers.end());
+  EXPECT_EQ(one->places(), static_cast<std::uint32_t>(kPlaces));
+  ASSERT_TRUE(one->joined()) << one->reason();
+  const auto two_from_one = conversions::to_isometry(one->map_from_peer().pose());
+  ASSERT_TRUE(two_from_one);
+  EXPECT_LT(vision::pose_error(*two_from_one * second, map_of_two).norm(), 0.1);
 }
 
 TEST_F(FleetOfComponents, SurvivesAnInvalidMessage) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "id_disputes.hpp"
+#include "panvo/landmarks/id_disputes.hpp"
 
 namespace panvo::landmarks {
 

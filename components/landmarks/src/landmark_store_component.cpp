@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "id_disputes.hpp"
 #include "map_use.hpp"
 #include "panvo/interfaces/topics.hpp"
+#include "panvo/landmarks/id_disputes.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/landmarks/landmark_use.hpp"
