@@ -23,17 +23,6 @@ vision::Matrix6d cut_covariance() {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-/// Covariance, in the axes of a way, that it has by the scale and direction of the odometry.
-vision::Matrix6d way_covariance_of(const Eigen::Vector3d& way, double scale_sigma, double direction_sigma_rad) {
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(way);
-  // A direction error also shortens the distance along the path: by 1 - cos.
-  const double length_sigma = std::hypot(scale_sigma, 0.5 * direction_sigma_rad * direction_sigma_rad);
-  covariance.topLeftCorner<3, 3>() = length_sigma * length_sigma * way * way.transpose() +
-                                     direction_sigma_rad * direction_sigma_rad * across * across.transpose();
-  return covariance;
-}
-
 }  // namespace
 
 LocalPoseGraph::LocalPoseGraph(double start_sigma_m, double start_sigma_rad, double scale_sigma,
@@ -134,12 +123,13 @@ std::optional<KnownLandmark> LocalPoseGraph::landmark(std::uint32_t id) const {
 
 std::vector<KnownLandmark> LocalPoseGraph::landmarks() const {
   std::vector<KnownLandmark> all;
+  const Node* const solved = solved_node();
   for (const auto& node : nodes_) {
     if (node.landmark_id == 0 || node.is_pass) continue;
     // Errors of landmarks of one earlier journey are correlated: seeing several does not reduce them.
     const vision::Matrix6d covariance = node.is_of_earlier_day
                                             ? known_.at(node.landmark_id).covariance
-                                            : vision::Matrix6d(node.covariance + since_solution(node.at));
+                                            : vision::Matrix6d(node.covariance + since_solution(node.at, solved));
     all.push_back({node.landmark_id, node.at.pose.stamp_ns, node.map_from_base, covariance});
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -148,41 +138,19 @@ std::vector<KnownLandmark> LocalPoseGraph::landmarks() const {
 
 PoseInMap LocalPoseGraph::carried(const OdometrySample& at) const {
   PoseInMap here = reckoned(at);
-  here.covariance += since_solution(at);
+  here.covariance += since_solution(at, solved_node());
   return here;
 }
 
 /// The same without the uncertainty of the scale, which later solutions contain.
-PoseInMap LocalPoseGraph::reckoned(const OdometrySample& at) const {
-  const auto& from = anchor(at.pose.stamp_ns);
+PoseInMap LocalPoseGraph::reckoned(const OdometrySample& at) const { return reckoned(at, anchor(at.pose.stamp_ns)); }
+
+PoseInMap LocalPoseGraph::reckoned(const OdometrySample& at, const Node& from) const {
   const bool is_back = at.pose.stamp_ns < from.at.pose.stamp_ns;  // before the journey's first node
   const Eigen::Isometry3d way = way_between(from.at.pose, at.pose);
   const vision::Matrix6d covariance =
       is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at, at);
   return {from.map_from_base * way, vision::compose_covariance(from.map_from_base, from.covariance, way, covariance)};
-}
-
-vision::Matrix6d LocalPoseGraph::common_covariance(const OdometrySample& at) const {
-  const Eigen::Vector3d position = reckoned(at).map_from_base.translation();
-  if (const Node* const pass = next_on_way(at, [&](const Node& node) { return is_known_pass(node); })) {
-    const KnownLandmark& known = known_.at(pass->landmark_id);
-    // Landmarks side by side are turned alike: however many were seen, what comes is turned about them.
-    vision::Matrix6d turned = vision::Matrix6d::Identity();
-    turned.topRightCorner<3, 3>() = -vision::skew(position - known.map_from_base.translation());
-    return turned * known.covariance * turned.transpose() + since_known(at);
-  }
-  const double scale_sigma = enu_ ? 0.0 : scale_sigma_;  // with satellites it is part of the graph
-  return way_covariance_of(position - nodes_.front().map_from_base.translation(), scale_sigma, direction_sigma_rad_);
-}
-
-vision::Matrix6d LocalPoseGraph::since_known(const OdometrySample& at) const {
-  // Satellites whose frame has a known pose in the map show the direction, too.
-  const bool do_fixes_tell = enu_ && enu_->known;
-  const Node* const from =
-      next_on_way(at, [&](const Node& node) { return is_known_pass(node) || (do_fixes_tell && node.fix); });
-  if (from == nullptr) return vision::Matrix6d::Zero();
-  const Eigen::Vector3d way = from->map_from_base.linear() * way_between(from->at.pose, at.pose).translation();
-  return way_covariance_of(way, enu_ ? 0.0 : scale_sigma_, direction_sigma_rad_);
 }
 
 void LocalPoseGraph::place(const Eigen::Isometry3d& map_from_former_map) {
@@ -235,24 +203,6 @@ const LocalPoseGraph::Node* LocalPoseGraph::landmark_node(std::uint32_t id) cons
   const auto found = std::find_if(nodes_.begin(), nodes_.end(),
                                   [&](const Node& node) { return node.landmark_id == id && id != 0 && !node.is_pass; });
   return found == nodes_.end() ? nullptr : &*found;
-}
-
-/// Of the nodes that meet a condition, the last one before or the first one after a pose, by the path between.
-template <class Condition>
-const LocalPoseGraph::Node* LocalPoseGraph::next_on_way(const OdometrySample& at, Condition&& condition) const {
-  const Node* before = nullptr;
-  const Node* after = nullptr;
-  for (const auto& node : nodes_) {
-    if (node.is_of_earlier_day || !condition(node)) continue;
-    const std::int64_t stamp_ns = node.at.pose.stamp_ns;
-    if (stamp_ns <= at.pose.stamp_ns) {
-      if (before == nullptr || stamp_ns > before->at.pose.stamp_ns) before = &node;
-    } else if (after == nullptr || stamp_ns < after->at.pose.stamp_ns) {
-      after = &node;
-    }
-  }
-  if (before == nullptr || after == nullptr) return before != nullptr ? before : after;
-  return at.way_m - before->at.way_m <= after->at.way_m - at.way_m ? before : after;
 }
 
 /// The last node of this journey up to a time, else its first node.

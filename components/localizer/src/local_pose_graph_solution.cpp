@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -53,6 +54,10 @@ bool LocalPoseGraph::solve() {
     graph.edges.push_back({order[i - 1], order[i], a.pose.odom_from_base.inverse() * b.pose.odom_from_base,
                            with_least_variance(way_covariance(a, b)), false, true});
   }
+  std::map<std::uint32_t, std::size_t> landmarks;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].landmark_id != 0 && !nodes_[i].is_pass) landmarks.emplace(nodes_[i].landmark_id, i);
+  }
   bool is_anchored = is_placed_;  // by something other than the start of the journey
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const auto& node = nodes_[i];
@@ -63,9 +68,8 @@ bool LocalPoseGraph::solve() {
     }
     if (node.said) graph.priors.push_back({i, node.said->map_from_base, with_least_variance(node.said->covariance)});
     if (!node.is_pass) continue;
-    const auto seen = static_cast<std::size_t>(landmark_node(node.landmark_id) - nodes_.data());
-    graph.edges.push_back(
-        {seen, i, node.sighting.landmark_from_base, with_least_variance(node.sighting.covariance), true});
+    graph.edges.push_back({landmarks.at(node.landmark_id), i, node.sighting.landmark_from_base,
+                           with_least_variance(node.sighting.covariance), true});
   }
   if (!is_anchored) graph.priors.push_back({order.front(), start_.map_from_base, start_.covariance});
   std::optional<std::pair<std::size_t, std::size_t>> pair;
@@ -191,8 +195,7 @@ const LocalPoseGraph::Node* LocalPoseGraph::solved_node() const {
 }
 
 /// Covariance, in the map, that the way from the latest solution with satellites gains by the scale.
-vision::Matrix6d LocalPoseGraph::since_solution(const OdometrySample& at) const {
-  const Node* const from = solved_node();
+vision::Matrix6d LocalPoseGraph::since_solution(const OdometrySample& at, const Node* from) const {
   if (from == nullptr || at.pose.stamp_ns < from->at.pose.stamp_ns) return vision::Matrix6d::Zero();
   return by_scale(from->map_from_base.linear() * way_between(from->at.pose, at.pose).translation(), scale_.sigma);
 }

@@ -171,9 +171,10 @@ bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
 
 std::vector<KnownLandmark> Localizer::landmarks() const {
   auto landmarks = graph_.landmarks();
+  const auto common = is_located_ ? graph_.common_covariances() : std::map<std::uint32_t, vision::Matrix6d>();
   for (auto& landmark : landmarks) {
     if (graph_.is_known(landmark.id)) continue;
-    landmark.covariance += is_located_ ? graph_.common_covariance(landmark.id) : anywhere();
+    landmark.covariance += is_located_ ? common.at(landmark.id) : anywhere();
   }
   return landmarks;
 }

@@ -131,6 +131,23 @@ TEST_F(PastStoredLandmarks, FixesInAFrameWithAKnownPlaceShowTheDirectionToo) {
   EXPECT_EQ(graph.since_known(at_metre(1100.0))(1, 1), 0.0);
 }
 
+/// Nodes with equal stamps, and in no order of time.
+TEST_F(PastStoredLandmarks, TheCommonErrorsOfAllLandmarksAreThoseOfEachAlone) {
+  for (const bool has_fixes : {false, true}) {
+    if (has_fixes) graph.set_enu(at_x(0.0), variance(0.001));
+    const std::uint32_t first = has_fixes ? 101 : 1;
+    for (std::uint32_t i = 0; i < 60; ++i) {
+      const double x_m = 10.0 * ((i * 7) % 30) + (has_fixes ? 5.0 : 0.0);  // each place twice
+      graph.add_built(first + i, at_metre(x_m).pose.stamp_ns, at_metre(x_m));
+      if (i % 13 == 5) pass(1000 + first + i, x_m + (i % 2 == 0 ? 0.0 : 4.0));
+      if (has_fixes && i % 11 == 3) graph.add_fix({}, at_metre(x_m));
+    }
+    const auto all = graph.common_covariances();
+    ASSERT_EQ(all.size(), has_fixes ? 120U : 60U);
+    for (const auto& [id, covariance] : all) EXPECT_EQ(covariance, graph.common_covariance(id)) << id;
+  }
+}
+
 TEST(LocalPoseGraph, SaysWhereItCannotBeSolved) {
   LocalPoseGraph graph(0.01, 0.001, 0.0, {});
   graph.start({});

@@ -106,6 +106,8 @@ class LocalPoseGraph {
   vision::Matrix6d common_covariance(std::uint32_t built_id) const {
     return common_covariance(landmark_node(built_id)->at);
   }
+  /// The same for all landmarks of this journey alone, by id, in a time that hardly depends on the others.
+  std::map<std::uint32_t, vision::Matrix6d> common_covariances() const;
   /// What scale and direction of the odometry add on the way from where the earlier journeys' map was seen next; zero if
   /// it was not seen.
   vision::Matrix6d since_known(const OdometrySample& at) const;
@@ -143,6 +145,15 @@ class LocalPoseGraph {
     vision::Matrix6d covariance = vision::Matrix6d::Zero();
   };
 
+  /// Nodes from which the errors common to all poses around one count: the last one before it, and those next to it that
+  /// saw the map of earlier journeys, or the direction. Null: none.
+  struct From {
+    const Node* anchor = nullptr;
+    const Node* known_pass = nullptr;
+    const Node* shown = nullptr;
+  };
+  class Path;
+
   /// Frame of the satellites' positions. Errors of poses in it are smaller than the sum of its own and the pose's in the
   /// map: `cross` is the covariance of the two, of the journey's last node.
   struct Enu {
@@ -161,10 +172,15 @@ class LocalPoseGraph {
   const Node& anchor(std::int64_t stamp_ns) const;
   const Node* solved_node() const;
   bool is_known_pass(const Node& node) const { return node.is_pass && known_.contains(node.landmark_id); }
+  bool shows_direction(const Node& node) const;
   template <class Condition>
   const Node* next_on_way(const OdometrySample& at, Condition&& condition) const;
   PoseInMap reckoned(const OdometrySample& at) const;
-  vision::Matrix6d since_solution(const OdometrySample& at) const;
+  PoseInMap reckoned(const OdometrySample& at, const Node& from) const;
+  vision::Matrix6d common_covariance(const OdometrySample& at, const From& from) const;
+  vision::Matrix6d since_shown(const OdometrySample& at, const Node* from) const;
+  /// `from`: solved_node()
+  vision::Matrix6d since_solution(const OdometrySample& at, const Node* from) const;
   std::vector<std::size_t> journey_order() const;
   Eigen::Isometry3d way_between(const OdometryPose& from, const OdometryPose& to) const;
   vision::Matrix6d way_covariance(const OdometrySample& from, const OdometrySample& to) const;
