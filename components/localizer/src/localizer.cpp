@@ -78,7 +78,8 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
   if (odometry.lean_sigma_rad_per_m > 0.0) turn_error_.expect_lean(odometry.lean_sigma_rad_per_m);
   const Eigen::Isometry3d step = last_raw_.inverse() * odometry.odom_from_base;
   const double turn_error_rad = turn_error_.error_rad(yaw_of(step.linear()), step.translation().norm());
-  chain_.add(odometry, turn_error_rad, least);
+  const double turn_variance_rad2 = chain_.empty() ? 0.0 : turn_error_.advance(step.translation().norm());
+  chain_.add(odometry, turn_error_rad, least, turn_variance_rad2);
   check_.add_step(chain_);
   if (graph_.has_started()) {
     slew(turned_more(step, -turn_error_rad));

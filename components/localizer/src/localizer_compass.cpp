@@ -212,6 +212,7 @@ void Localizer::fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad
   const double gain = turn->variance_rad2 / (turn->variance_rad2 + in_sums(variance_rad2));
   const double by_rad = gain * vision::wrapped(change_rad - turn->change_rad);
   chain_.apply_yaw_correction(from_ns, to_ns, by_rad, 1.0 - gain);
+  turn_error_.measure_turn();
 }
 
 }  // namespace panvo::localizer

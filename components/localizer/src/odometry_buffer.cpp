@@ -70,7 +70,8 @@ Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad) {
   return turned;
 }
 
-bool OdometryBuffer::add(const OdometryPose& odometry, double turn_error_rad, const vision::Matrix6d& least) {
+bool OdometryBuffer::add(const OdometryPose& odometry, double turn_error_rad, const vision::Matrix6d& least,
+                         double turn_variance_rad2) {
   if (!odometry.odom_from_base.matrix().allFinite() || !odometry.covariance.allFinite()) return false;
   if (!entries_.empty() && odometry.stamp_ns <= entries_.back().raw.stamp_ns) return false;
   Entry entry;
@@ -83,6 +84,7 @@ bool OdometryBuffer::add(const OdometryPose& odometry, double turn_error_rad, co
     entry.step.motion = turned_more(moved, -turn_error_rad);
     entry.step.covariance = gained_covariance(before.raw, odometry, kMinStepVariance);
     entry.step.covariance = at_least(entry.step.covariance, least);
+    entry.step.covariance(vision::kYaw, vision::kYaw) += turn_variance_rad2;
     entry.marked = entry.step;
   }
   entries_.push_back(entry);

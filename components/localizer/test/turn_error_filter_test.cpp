@@ -97,6 +97,64 @@ TEST(TurnErrorFilter, ExpectsTheLeanThatIsStatedBeforeTheFirstMeasurement) {
   EXPECT_EQ(std::sqrt(filter.covariance()(1, 1)), learned);
 }
 
+/// Squared error of the heading over its variance, on a way without compass after one with it, of a lean that changes.
+double nees_without_compass(unsigned seed, double lean_sigma_rad_m, int way_m) {
+  constexpr double kSigma_rad = 7e-4;
+  constexpr int kEach_m = 5;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  const double same = std::exp(-lean_sigma_rad_m / kLastingTurn_rad), other = std::sqrt(1.0 - same * same);  // in 1 m
+  double lean_rad_m = lean_sigma_rad_m * normal(random);
+  TurnErrorFilter filter(0.0, lean_sigma_rad_m);
+  double off_rad = 0.0, variance_rad2 = 0.0;
+  const auto drive = [&](int metres) {
+    off_rad = variance_rad2 = 0.0;
+    for (int i = 0; i < metres; ++i) {
+      lean_rad_m = same * lean_rad_m + other * lean_sigma_rad_m * normal(random);
+      off_rad += filter.lean_rad_m() - lean_rad_m;
+      variance_rad2 += filter.advance(1.0);
+    }
+  };
+  for (int i = 0; i < 40; ++i) {
+    drive(kEach_m);
+    filter.measure_turn();
+    filter.add(off_rad + kSigma_rad * normal(random), 0.0, kEach_m, kSigma_rad * kSigma_rad);
+  }
+  drive(way_m);
+  const auto errors = filter.errors();
+  const double ways = way_m / errors.lean_memory_m, persisting = 2.0 * (ways + std::expm1(-ways)) / (ways * ways);
+  variance_rad2 += errors.covariance(1, 1) * way_m * way_m * persisting;  // as covariance_of_turns() says
+  return off_rad * off_rad / variance_rad2;
+}
+
+TEST(TurnErrorFilter, IsAsUnsureOfALeanAsItMayHaveChangedSinceTheCompassFellSilent) {
+  constexpr unsigned kJourneys = 400;
+  for (const double lean_sigma_rad_m : {1.4e-4, 7e-4}) {
+    for (const int way_m : {20, 80, 300}) {
+      double nees = 0.0;
+      for (unsigned seed = 0; seed < kJourneys; ++seed) {
+        nees += nees_without_compass(seed, lean_sigma_rad_m, way_m) / kJourneys;
+      }
+      EXPECT_NEAR(nees, 1.1, 0.4) << lean_sigma_rad_m << " rad/m, " << way_m << " m";
+    }
+  }
+}
+
+TEST(TurnErrorFilter, AddsNothingToALeanThatNoCompassEverMeasured) {
+  TurnErrorFilter filter(0.003, 1e-4);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(filter.advance(1.0), 0.0) << i;
+}
+
+TEST(TurnErrorFilter, LearnsAnewAfterALongWayWithoutCompass) {
+  TurnErrorFilter filter(0.003, 1e-4);
+  for (int i = 0; i < 100; ++i) filter.add(0.0, 0.0, 4.0, 1e-6);
+  const double known_m = filter.errors().lean_memory_m;
+  for (int i = 0; i < 1000; ++i) filter.advance(1.0);
+  EXPECT_NEAR(filter.add(0.0, 0.0, 4.0, 1e-6).lean_memory_m, kLastingTurn_rad / 1e-4 + 4.0, 0.1)
+      << "as before the first";
+  EXPECT_LT(known_m, 0.8 * kLastingTurn_rad / 1e-4);
+}
+
 TEST(TurnErrorFilter, IsNotMovedByAMeasurementThatIsWrong) {
   TurnErrorFilter filter(0.003, 1e-4);
   filter.add(0.2, 0.3, 5.0, 1e-6);

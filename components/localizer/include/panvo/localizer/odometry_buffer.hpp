@@ -48,9 +48,9 @@ class OdometryBuffer {
 
   /// Appends a pose; false, without effect, if its stamp is not later than the last or it is not finite.
   /// `turn_error_rad`: what odometry turned too much since the last pose; `least`: lower bound of the step's covariance,
-  /// in the vehicle's axes.
+  /// in the vehicle's axes; `turn_variance_rad2`: added to that of its yaw.
   bool add(const OdometryPose& odometry, double turn_error_rad = 0.0,
-           const vision::Matrix6d& least = vision::Matrix6d::Zero());
+           const vision::Matrix6d& least = vision::Matrix6d::Zero(), double turn_variance_rad2 = 0.0);
 
   bool empty() const noexcept { return entries_.empty(); }
   /// Precondition: not empty.

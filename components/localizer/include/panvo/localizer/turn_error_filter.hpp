@@ -32,6 +32,12 @@ class TurnErrorFilter {
   /// error_rad(); `turn_rad`, `way_m`: by odometry; `variance_rad2`: of the disagreement of exact odometry.
   TurnErrorChange add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2);
 
+  /// Moves on by a step of the odometry. Returns the variance of the heading that the change of the lean since the last
+  /// measurement adds to covariance_of_turns() with errors(), rad^2.
+  double advance(double way_m);
+  /// The compass measured the turn up to here: what is unknown of the lean adds up anew.
+  void measure_turn() { unseen_m_ = told_rad2_ = 0.0; }
+
   /// What odometry turns too much on a step.
   double error_rad(double turn_rad, double way_m) const noexcept { return state_[0] * turn_rad + state_[1] * way_m; }
   /// 0.003: odometry turns 0.3 % more than the vehicle.
@@ -43,9 +49,15 @@ class TurnErrorFilter {
  private:
   double walk_per_m() const;
   double lean_memory_m() const;
+  double lasting_m() const;
+  double lean_variance_after(double way_m) const;
+  double heading_variance_after(double way_m) const;
 
   double lean_sigma_rad_m_;
   bool has_learned_ = false;
+  double unlearned_m_ = 0.0;                         // way since the last measurement
+  double unseen_m_ = 0.0;                            // way since the last turn that the compass measured
+  double told_rad2_ = 0.0;                           // sum of what advance() returned on it
   Eigen::Vector2d state_ = Eigen::Vector2d::Zero();  // scale, lean
   Eigen::Matrix2d covariance_;
 };
