@@ -91,7 +91,7 @@ std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const St
     if (is_camera_turned() || (!off_m && !turn_dispute_.is_on())) {
       way_dispute_.end();
     } else {
-      const auto gone = gone_on(chain, stretch.to_ns);
+      const auto gone = is_old_jump(stretch.to_ns) ? std::nullopt : gone_on(chain, stretch.to_ns);
       const double part =
           gone ? vision::seconds(stretch.from_ns, stretch.to_ns) / vision::seconds(*agreed_ns_, stretch.to_ns) : 0.0;
       const double otherwise_m = gone ? gone->more.way_m.norm() * std::min(1.0, part) : 0.0;

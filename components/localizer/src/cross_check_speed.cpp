@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "panvo/localizer/cross_check.hpp"
 #include "panvo/localizer/speed_jump.hpp"
@@ -14,7 +15,9 @@ namespace {
 constexpr std::size_t kShowsWithin = 4;  // images after a jump
 constexpr double kUnlike = 2.0;          // times what usual motion deviates: a jump would show in that time
 constexpr double kSame = 0.2;            // fraction of the distance: a smaller difference is not a jump
-constexpr double kLongestJump_s = 5.0;   // then, neither scenery nor speed are as before
+constexpr double kLongestJump_s = 5.0;   // then, the speed is not as before
+constexpr double kTells = 8.0;           // errors of parallax: on a shorter way, it would hardly show half the speed
+constexpr double kHalfWay = 0.5;         // half-way between two explanations
 
 }  // namespace
 
@@ -57,6 +60,7 @@ bool CrossCheck::goes_on_as_before(const Stretch& stretch, const Unjumped& unjum
 std::optional<double> CrossCheck::settle_jump(OdometryBuffer& chain, const Stretch& stretch, double said_m,
                                               double side_parallax_rad) {
   if (!jump_ || turn_dispute_.is_on() || stretch.to_ns <= jump_->since_ns) return std::nullopt;
+  if (is_old_jump(stretch.to_ns)) return settle_old_jump(stretch, said_m, side_parallax_rad);
   std::optional<Unjumped> unjumped;
   if (jump_->is_from_agreement) unjumped = unless_it_jumped(chain, stretch.from_ns, stretch.to_ns);
   const std::optional<double> otherwise_m = unjumped ? std::optional(unjumped->length_m) : std::nullopt;
@@ -79,6 +83,36 @@ std::optional<double> CrossCheck::settle_jump(OdometryBuffer& chain, const Stret
   return std::nullopt;
 }
 
+/// Where the vehicle would be at the speed before the jump tells nothing any more. But odometry was wrong, and remains so
+/// while it moves on by another way than objects beside the path show.
+std::optional<double> CrossCheck::settle_old_jump(const Stretch& stretch, double said_m, double side_parallax_rad) {
+  const auto shown = witness_.length(side_parallax_rad);
+  if (!shown) return std::nullopt;
+  const double nearest_m = std::clamp(said_m, std::max(0.0, shown->m - shown->error_m), shown->m + shown->error_m);
+  const bool is_contradicted = witness_.judge(side_parallax_rad, said_m, nearest_m) == SpeedVerdict::kContradicts;
+  const bool does_agree = !is_contradicted && std::max(said_m, shown->m) > kTells * shown->error_m;
+  if (does_agree && std::exchange(jump_->is_agreeing, true)) {
+    speed_agreed_ns_ = stretch.to_ns;
+    end_jump();
+    return std::nullopt;
+  }
+  if (!does_agree) {
+    jump_->is_agreeing = false;
+    jump_->contradicted_ns = stretch.to_ns;  // a vehicle that hardly moves proves nothing
+  }
+  return std::abs(shown->m - said_m);
+}
+
+/// Odometry was right if the place is nearer to where it was expected than panoramas say.
+void CrossCheck::add_place(double moved_m) {
+  if (!jump_ || !jump_->contradicted_ns || !way_dispute_.is_on()) return;
+  const double off_m = way_dispute_.total() - jump_->placed_at_m;
+  jump_->placed_at_m = way_dispute_.total();
+  if (moved_m > kHalfWay * off_m) return;
+  end_jump();
+  way_dispute_.end();
+}
+
 /// Odometry has been wrong since the jump, not only since the panorama that shows it.
 void CrossCheck::catch_up(OdometryBuffer& chain, const Stretch& stretch) {
   const auto earlier = unless_it_jumped(chain, *agreed_ns_, stretch.from_ns);
@@ -92,11 +126,16 @@ void CrossCheck::end_jump() {
   unsure_.end();
 }
 
-/// Without a panorama that confirms or contradicts it, a jump is over after some time. So is any after kLongestJump_s:
-/// what was seen before it tells nothing of the scenery and the speed of now.
+bool CrossCheck::is_old_jump(std::int64_t now_ns) const {
+  return jump_ && vision::seconds(jump_->since_ns, now_ns) > kLongestJump_s;
+}
+
+/// Without a panorama that confirms or contradicts it, a jump is over after some time. So is any after kLongestJump_s
+/// that panoramas do not contradict.
 void CrossCheck::drop_old_jump(std::int64_t now_ns) {
   if (!jump_) return;
-  if (!is_fresh(jump_->last_ns(), now_ns) || vision::seconds(jump_->since_ns, now_ns) > kLongestJump_s) end_jump();
+  const bool is_contradicted = jump_->contradicted_ns && is_fresh(*jump_->contradicted_ns, now_ns);
+  if (!is_fresh(jump_->last_ns(), now_ns) || (is_old_jump(now_ns) && !is_contradicted)) end_jump();
 }
 
 }  // namespace panvo::localizer

@@ -75,6 +75,9 @@ Correction Localizer::add(const LandmarkSighting& received) {
   if (!azimuth_ns_) check_.confirm_pose(at->pose.stamp_ns);  // with a compass, the panoramas decide
   correction.kind = CorrectionKind::kApplied;
   correction.map_from_base_after = graph_.carried(*at).map_from_base;
+  const Eigen::Vector3d moved =
+      correction.map_from_base_after.translation() - correction.map_from_base_before.translation();
+  if (!joins) check_.add_place(moved.head<2>().norm());
   latest_ = localized(chain_.latest());
   return correction;
 }

@@ -30,9 +30,7 @@ void SpeedWitness::add(double at_m, double length_m, double parallax_rad) {
 /// Compares logarithms: scenery changes the parallax by a factor.
 SpeedVerdict SpeedWitness::judge(double parallax_rad, double said_m, std::optional<double> otherwise_m) const {
   if (stretches_.size() < kFewest) return SpeedVerdict::kUnclear;
-  std::vector<double> per_metre;
-  for (const auto& stretch : stretches_) per_metre.push_back(stretch.parallax_rad_per_m);
-  const double usual_rad_per_m = vision::median(per_metre);
+  const double usual_rad_per_m = this->usual_rad_per_m();
   const double expected_rad = usual_rad_per_m * said_m + kMeasured_rad;
   const double seen = std::log((std::abs(parallax_rad) + kMeasured_rad) / expected_rad);
   const bool is_usual = std::abs(seen) < kClear;
@@ -41,6 +39,17 @@ SpeedVerdict SpeedWitness::judge(double parallax_rad, double said_m, std::option
   const bool is_nearer = seen / otherwise < kNearer;
   if (std::abs(otherwise) > kTendency && !is_nearer) return SpeedVerdict::kContradicts;
   return std::abs(otherwise) > kClear && is_nearer && is_usual ? SpeedVerdict::kAgrees : SpeedVerdict::kUnclear;
+}
+
+std::optional<SpeedWitness::Length> SpeedWitness::length(double parallax_rad) const {
+  if (stretches_.size() < kFewest || !(usual_rad_per_m() > 0.0)) return std::nullopt;
+  return Length{std::abs(parallax_rad) / usual_rad_per_m(), kMeasured_rad / usual_rad_per_m()};
+}
+
+double SpeedWitness::usual_rad_per_m() const {
+  std::vector<double> per_metre;
+  for (const auto& stretch : stretches_) per_metre.push_back(stretch.parallax_rad_per_m);
+  return vision::median(per_metre);
 }
 
 }  // namespace panvo::localizer

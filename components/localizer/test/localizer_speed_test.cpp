@@ -19,6 +19,20 @@ class Ahead {
     for (int i = 0; i < frames; ++i) step();
   }
 
+  void build() {
+    built_at_m_ = true_x_m_;
+    EXPECT_TRUE(localizer.add_built(1, odometry_.stamp_ns));
+  }
+  /// Sees the place again, from however far.
+  void see() {
+    LandmarkSighting sighting;
+    sighting.stamp_ns = odometry_.stamp_ns;
+    sighting.landmark_id = 1;
+    sighting.landmark_from_base.translation().x() = true_x_m_ - built_at_m_;
+    sighting.covariance = 0.01 * 0.01 * vision::Matrix6d::Identity();
+    EXPECT_EQ(localizer.add(sighting).kind, CorrectionKind::kApplied);
+  }
+
   double error_m() const { return std::abs(localizer.latest().map_from_base.translation().x() - true_x_m_); }
   double sigma_m() const { return std::sqrt(localizer.latest().covariance(0, 0)); }
   bool is_usable() const {
@@ -66,7 +80,7 @@ class Ahead {
 
   OdometryPose odometry_;
   std::int64_t frame_ = 0;
-  double true_x_m_ = 0.0;
+  double true_x_m_ = 0.0, built_at_m_ = 0.0;
 };
 
 TEST(LocalizerSpeed, CoversAnOdometryWhoseSpeedJumpsAlthoughItsDirectionStays) {
@@ -87,6 +101,72 @@ TEST(LocalizerSpeed, CoversAnOdometryWhoseSpeedJumpsAlthoughItsDirectionStays) {
       EXPECT_NEAR(vehicle.sigma_m(), vehicle.error_m(), 0.4 * vehicle.error_m()) << scale << ", " << after_s << " s";
     }
   }
+}
+
+TEST(LocalizerSpeed, IsDoubtedAsLongAsPanoramasContradictIt) {
+  for (const double scale : {0.5, 2.0, 0.0}) {
+    Ahead vehicle;
+    vehicle.drive(5.0);
+    vehicle.scale = scale;
+    vehicle.drive(0.2);
+    for (int i = 0; i < 20; ++i) {
+      vehicle.drive(0.4);
+      EXPECT_FALSE(vehicle.is_usable()) << scale << ", " << i;
+      EXPECT_LT(vehicle.error_m(), 3.0 * vehicle.sigma_m() + vehicle.doubted_m()) << scale << ", " << i;
+    }
+    EXPECT_EQ(vehicle.localizer.latest().state, State::kCompassOnly) << scale;
+    EXPECT_NEAR(vehicle.sigma_m(), vehicle.error_m(), 0.4 * vehicle.error_m()) << scale;
+    vehicle.scale = 1.0;
+    vehicle.drive(1.0);
+    EXPECT_TRUE(vehicle.is_usable()) << scale;
+    const double sigma_m = vehicle.sigma_m();
+    vehicle.drive(4.0);
+    EXPECT_LT(vehicle.sigma_m(), sigma_m + 0.1) << scale;
+  }
+}
+
+TEST(LocalizerSpeed, IsDoubtedBeyondAStopAndAtOtherSpeeds) {
+  Ahead vehicle;
+  vehicle.drive(5.0);
+  vehicle.scale = 2.0;
+  vehicle.drive(6.0);
+  for (const double speed_m_s : {4.0, 3.0, 2.0, 1.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}) {
+    vehicle.speed_m_s = speed_m_s;
+    vehicle.drive(1.0);
+    EXPECT_FALSE(vehicle.is_usable()) << speed_m_s << " m/s";
+    EXPECT_LT(vehicle.error_m(), 3.0 * vehicle.sigma_m() + vehicle.doubted_m()) << speed_m_s << " m/s";
+  }
+}
+
+TEST(LocalizerSpeed, IsDoubtedBeyondAPlaceThatProvesItWrong) {
+  Ahead vehicle;
+  vehicle.drive(2.0);
+  vehicle.build();
+  vehicle.drive(3.0);
+  vehicle.scale = 2.0;
+  vehicle.drive(8.0);
+  vehicle.see();
+  EXPECT_LT(vehicle.error_m(), 0.2);
+  for (int i = 0; i < 5; ++i) {
+    vehicle.drive(1.0);
+    EXPECT_FALSE(vehicle.is_usable()) << i;
+    EXPECT_LT(vehicle.error_m(), 3.0 * vehicle.sigma_m() + vehicle.doubted_m()) << i;
+  }
+}
+
+TEST(LocalizerSpeed, IsDoubtedNoLongerWhereAPlaceProvesItRight) {
+  Ahead vehicle;
+  vehicle.drive(2.0);
+  vehicle.build();
+  vehicle.drive(3.0);
+  vehicle.speed_m_s *= 2.0;  // whoever does that where everything is suddenly twice as far away
+  vehicle.farness_m *= 2.0;
+  vehicle.drive(8.0);
+  EXPECT_FALSE(vehicle.is_usable());
+  vehicle.see();
+  vehicle.drive(1.0);
+  EXPECT_TRUE(vehicle.is_usable());
+  EXPECT_LT(vehicle.sigma_m(), 0.2);
 }
 
 TEST(LocalizerSpeed, CanBeUsedAgainWhereTheOdometryIsRightAgain) {

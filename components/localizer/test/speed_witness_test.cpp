@@ -53,6 +53,15 @@ TEST(SpeedWitness, WithoutAnotherSpeedSeesOnlyWhetherParallaxIsAsUsual) {
   EXPECT_EQ(witness.judge(0.20, 1.0, std::nullopt), SpeedVerdict::kUnclear);
 }
 
+TEST(SpeedWitness, MeasuresALengthByParallaxAlone) {
+  const auto length = after(0.08).length(-0.16);
+  ASSERT_TRUE(length);
+  EXPECT_NEAR(length->m, 2.0, 1e-9);
+  EXPECT_NEAR(length->error_m, 0.005 / 0.08, 1e-9) << "a pixel";
+  EXPECT_FALSE(SpeedWitness().length(0.16)) << "at the start";
+  EXPECT_FALSE(after(0.0).length(0.16)) << "nothing near";
+}
+
 TEST(SpeedWitness, ComparesWithTheLastMetresOnly) {
   auto witness = after(0.20);
   for (int i = 11; i <= 17; ++i) witness.add(i, 1.0, 0.05);

@@ -63,6 +63,9 @@ class CrossCheck {
   /// a compass.
   void confirm_pose(std::int64_t stamp_ns);
 
+  /// A place moved the latest pose horizontally by so much.
+  void add_place(double moved_m);
+
   /// Discards measurements of the former clock, except the mounting angles.
   void forget();
 
@@ -112,6 +115,7 @@ class CrossCheck {
     bool is_from_agreement = false;                 // odometry was right before
     std::optional<std::int64_t> contradicted_ns{};  // last panorama that contradicts it
     bool is_agreeing = false;                       // the last panorama confirmed it
+    double placed_at_m = 0.0;                       // by how much odometry was off in all at the last place
 
     std::int64_t last_ns() const { return std::max(shown_ns, contradicted_ns.value_or(shown_ns)); }
   };
@@ -141,7 +145,9 @@ class CrossCheck {
   bool goes_on_as_before(const Stretch& stretch, const Unjumped& unjumped) const;
   std::optional<double> settle_jump(OdometryBuffer& chain, const Stretch& stretch, double said_m,
                                     double side_parallax_rad);
+  std::optional<double> settle_old_jump(const Stretch& stretch, double said_m, double side_parallax_rad);
   void catch_up(OdometryBuffer& chain, const Stretch& stretch);
+  bool is_old_jump(std::int64_t now_ns) const;
   void end_jump();
   void drop_old_jump(std::int64_t now_ns);
   Lasting lasting_with(std::int64_t reference_ns, double seen_rad, double length_m) const;

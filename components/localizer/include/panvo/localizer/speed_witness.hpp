@@ -22,10 +22,19 @@ class SpeedWitness {
   /// vehicle went on as before, if that is known.
   SpeedVerdict judge(double parallax_rad, double said_m, std::optional<double> otherwise_m) const;
 
+  /// Of a stretch, by its parallax alone.
+  struct Length {
+    double m, error_m;  ///< the latter of the parallax, not of the scenery
+  };
+  /// Nullopt while too little is known.
+  std::optional<Length> length(double parallax_rad) const;
+
  private:
   struct Stretch {
     double at_m, parallax_rad_per_m;
   };
+
+  double usual_rad_per_m() const;
 
   std::deque<Stretch> stretches_;  // the last ones
 };
