@@ -91,13 +91,13 @@ class BinocularOdometryComponent final : public runtime::Component {
   }
 
   void on_images(const sensor_msgs::msg::Image& left, const sensor_msgs::msg::Image& right) {
-    for (auto [camera, image] : {std::pair(&left_, &left), std::pair(&right_, &right)}) {
-      const auto fits = [&size = *image](const Calibration& one) {
-        return static_cast<int>(size.width()) == one.camera.rectified.width &&
-               static_cast<int>(size.height()) == one.camera.rectified.height;
+    const auto fits = [](const sensor_msgs::msg::Image& image) {
+      return [&image](const Calibration& one) {
+        return static_cast<int>(image.width()) == one.camera.rectified.width &&
+               static_cast<int>(image.height()) == one.camera.rectified.height;
       };
-      if (camera->add_image(fits)) tracking_.reset();
-    }
+    };
+    if (Camera::add_images(left_, fits(left), right_, fits(right))) tracking_.reset();
     if (!tracking_ && !begin_tracking()) return;
     check_mount();
     const auto left_grey = conversions::grey(left);

@@ -36,13 +36,20 @@ class BinocularOdometryComponent : public ::testing::Test {
   }
 
   void publish_infos(const vision::RectifiedStereo& stereo = SyntheticScene::stereo()) {
-    vision::StereoCalibration calibration;
-    calibration.left.pinhole = calibration.right.pinhole = stereo.camera;
-    calibration.right_from_left.translation().x() = -stereo.baseline_m;
-    harness_.publish(topics::kStereoLeftCameraInfo,
-                     conversions::to_camera_info(conversions::left_camera(calibration, stereo), 1, "left_optical"));
-    harness_.publish(topics::kStereoRightCameraInfo,
-                     conversions::to_camera_info(conversions::right_camera(calibration, stereo), 1, "right_optical"));
+    publish_infos(stereo, stereo);
+  }
+
+  void publish_infos(const vision::RectifiedStereo& of_left, const vision::RectifiedStereo& of_right) {
+    const auto calibrated = [](const vision::RectifiedStereo& stereo) {
+      vision::StereoCalibration raw;
+      raw.left.pinhole = raw.right.pinhole = stereo.camera;
+      raw.right_from_left.translation().x() = -stereo.baseline_m;
+      return raw;
+    };
+    const auto left = conversions::left_camera(calibrated(of_left), of_left);
+    const auto right = conversions::right_camera(calibrated(of_right), of_right);
+    harness_.publish(topics::kStereoLeftCameraInfo, conversions::to_camera_info(left, 1, "left_optical"));
+    harness_.publish(topics::kStereoRightCameraInfo, conversions::to_camera_info(right, 1, "right_optical"));
   }
 
   void publish_mounting(const Eigen::Isometry3d& mounting = base_from_left()) {
@@ -259,6 +266,24 @@ TEST_F(BinocularOdometryComponent, GoesOnWithAnotherCalibrationThatLasts) {
   ASSERT_THAT(odometry_, SizeIs(10));
   EXPECT_TRUE(quality_.back()->reliable()) << quality_.back()->reason();
   EXPECT_NEAR(odometry_.back()->twist().twist().linear().x(), 1.5 * 1.2, 0.05);
+}
+
+TEST_F(BinocularOdometryComponent, RestartsOnceIfTheCamerasTellAnotherCalibrationOneAfterTheOther) {
+  load();
+  publish_infos();
+  publish_mounting();
+  publish_pair(SyntheticScene::frame(0));
+  vision::RectifiedStereo longer = SyntheticScene::stereo();
+  longer.camera.fx *= 1.02;
+  longer.camera.fy *= 1.02;
+  constexpr int kFrames = 12;
+  for (int i = 1; i < kFrames; ++i) {
+    publish_infos(longer, i > 1 ? longer : SyntheticScene::stereo());
+    publish_pair(SyntheticScene::frame(i));
+  }
+  EXPECT_EQ(lines_with("do not form a stereo pair"), 0);
+  EXPECT_EQ(lines_with("tracking restarts with the new calibration"), 1);
+  ASSERT_THAT(odometry_, SizeIs(kFrames)) << "no pair is lost";
 }
 
 TEST_F(BinocularOdometryComponent, KeepsTheCalibrationIfTwoPublishersDisagree) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace panvo::conversions {
 namespace {
 
@@ -80,6 +82,69 @@ TEST_F(LastingCalibrationTest, ChangesAtMostOnceIfTwoPublishersOfOtherSizesDisag
   }
   EXPECT_EQ(changes, 1);
   EXPECT_EQ(told, 1);
+}
+
+class LastingCalibrationOfAPair : public testing::Test {
+ protected:
+  LastingCalibrationOfAPair() {
+    left.add(kFirstOne);
+    right.add(kFirstOne);
+    pair();
+  }
+
+  bool pair(int width_px = 640) {
+    const auto fits = [&](const SizedCalibration& one) { return one.width_px == width_px; };
+    return LastingCalibration<SizedCalibration>::add_images(left, fits, right, fits);
+  }
+
+  static constexpr int kLasting = LastingCalibration<SizedCalibration>::kLasting;
+  LastingCalibration<SizedCalibration> left, right;
+};
+
+TEST_F(LastingCalibrationOfAPair, ChangesOnceIfTheOtherCamerasComesSomePairsLater) {
+  for (auto [first, second] : {std::pair(&left, &right), std::pair(&right, &left)}) {
+    for (int later = 0; later < kLasting; ++later) {
+      left = right = {};
+      for (auto* camera : {&left, &right}) camera->add(kFirstOne);
+      pair();
+      for (int i = 1; i <= 3 * kLasting; ++i) {
+        first->add(kOfSameSize);
+        if (i > later) second->add(kOfSameSize);
+        EXPECT_EQ(pair(), i == kLasting + later) << later << " later, " << i;
+        EXPECT_EQ(left.used(), right.used()) << later << " later, " << i;
+      }
+      EXPECT_EQ(left.used(), kOfSameSize);
+    }
+  }
+}
+
+TEST_F(LastingCalibrationOfAPair, ChangesAsSoonIfOnlyOneDoes) {
+  for (int i = 1; i <= 3 * kLasting; ++i) {
+    right.add(kOfSameSize);
+    EXPECT_EQ(pair(), i == kLasting) << i;
+  }
+  EXPECT_EQ(left.used(), kFirstOne);
+  EXPECT_EQ(right.used(), kOfSameSize);
+}
+
+TEST_F(LastingCalibrationOfAPair, DoesNotWaitForEverForPublishersThatDisagreeOnTheOther) {
+  for (int i = 1; i <= 3 * kLasting; ++i) {
+    left.add(kOfSameSize);
+    right.add(kFirstOne);
+    right.add(kOfSameSize);
+    EXPECT_EQ(pair(), i == 2 * kLasting) << i;
+  }
+  EXPECT_EQ(left.used(), kOfSameSize);
+  EXPECT_EQ(right.used(), kFirstOne);
+}
+
+TEST_F(LastingCalibrationOfAPair, OfAnotherSizeIsUsedAtOnce) {
+  left.add(kSmaller);
+  EXPECT_TRUE(pair(320));
+  EXPECT_EQ(left.used(), kSmaller);
+  right.add(kSmaller);
+  EXPECT_TRUE(pair(320));
+  EXPECT_EQ(right.used(), kSmaller);
 }
 
 }  // namespace
