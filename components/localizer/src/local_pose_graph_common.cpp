@@ -68,13 +68,18 @@ vision::Matrix6d LocalPoseGraph::common_covariance(const OdometrySample& at) con
            next_on_way(at, [&](const Node& node) { return shows_direction(node); })});
 }
 
-std::map<std::uint32_t, vision::Matrix6d> LocalPoseGraph::common_covariances() const {
-  std::map<std::uint32_t, vision::Matrix6d> all;
+Eigen::Vector3d LocalPoseGraph::velocity_where_known(const OdometrySample& at) const {
+  return velocity_at(next_on_way(at, [&](const Node& node) { return is_known_pass(node); }));
+}
+
+std::map<std::uint32_t, LocalPoseGraph::CommonErrors> LocalPoseGraph::common_errors() const {
+  std::map<std::uint32_t, CommonErrors> all;
   const Path path(*this);
   for (const auto& node : nodes_) {
     const bool is_built = node.landmark_id != 0 && !node.is_pass && !node.is_of_earlier_day;
     if (!is_built || is_known(node.landmark_id) || all.contains(node.landmark_id)) continue;
-    all.emplace(node.landmark_id, common_covariance(node.at, path.around(node.at)));
+    const From from = path.around(node.at);
+    all.emplace(node.landmark_id, CommonErrors{common_covariance(node.at, from), velocity_at(from.known_pass)});
   }
   return all;
 }
@@ -90,6 +95,11 @@ vision::Matrix6d LocalPoseGraph::common_covariance(const OdometrySample& at, con
   }
   const double scale_sigma = enu_ ? 0.0 : scale_sigma_;  // with satellites it is part of the graph
   return way_covariance_of(position - nodes_.front().map_from_base.translation(), scale_sigma, direction_sigma_rad_);
+}
+
+Eigen::Vector3d LocalPoseGraph::velocity_at(const Node* pass) {
+  if (pass == nullptr) return Eigen::Vector3d::Zero();
+  return pass->map_from_base.linear() * pass->sighting.velocity_m_s;
 }
 
 vision::Matrix6d LocalPoseGraph::since_known(const OdometrySample& at) const {

@@ -128,6 +128,7 @@ bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
   if (!at) return false;
   graph_.add_built(id, stamp_ns, *at);
   mounts_.add_built(id, stamp_ns);
+  if (const auto twist = chain_.twist(at->pose.stamp_ns)) built_twists_.insert_or_assign(id, *twist);
   return true;
 }
 
@@ -172,10 +173,18 @@ bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
 
 std::vector<KnownLandmark> Localizer::landmarks() const {
   auto landmarks = graph_.landmarks();
-  const auto common = is_located_ ? graph_.common_covariances() : std::map<std::uint32_t, vision::Matrix6d>();
+  const auto common = is_located_ ? graph_.common_errors() : std::map<std::uint32_t, LocalPoseGraph::CommonErrors>();
   for (auto& landmark : landmarks) {
     if (graph_.is_known(landmark.id)) continue;
-    landmark.covariance += is_located_ ? common.at(landmark.id) : anywhere();
+    if (!is_located_) {
+      landmark.covariance += anywhere();
+      continue;
+    }
+    const auto& errors = common.at(landmark.id);
+    const auto built = built_twists_.find(landmark.id);
+    Eigen::Vector3d velocity_m_s = -errors.velocity_where_known_m_s;
+    if (built != built_twists_.end()) velocity_m_s += landmark.map_from_base.linear() * built->second.head<3>();
+    landmark.covariance += errors.covariance + by_clock(velocity_m_s);
   }
   return landmarks;
 }
@@ -220,8 +229,10 @@ LocalizedPose Localizer::localized(const OdometrySample& at) const {
 
 PoseInMap Localizer::expected(const OdometrySample& at) const {
   auto here = graph_.carried(at);
-  // Errors common to all poses of the journey, which sightings of its own landmarks do not reveal.
-  here.covariance += is_located_ ? graph_.common_covariance(at) : anywhere();
+  // Errors common to all poses of the journey, which sightings of its own landmarks do not reveal. However many landmarks
+  // of earlier journeys were seen on a straight road, the clock displaced all alike.
+  here.covariance +=
+      is_located_ ? graph_.common_covariance(at) + by_clock(graph_.velocity_where_known(at)) : anywhere();
   return here;
 }
 

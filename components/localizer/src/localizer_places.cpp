@@ -15,9 +15,7 @@
 namespace panvo::localizer {
 namespace {
 
-// Of an image's arrival stamp. Larger clock offsets show in the first bend; until then sightings on straight roads
-// count as well.
-constexpr double kMaxStampSigma_s = 0.01;
+constexpr double kStampSigma_s = 0.01;     // of an image's arrival stamp, in addition to the clock's offset
 constexpr double kCameraFromBase_m = 1.0;  // from base_link, about which the vehicle turns in the landmark's frame
 constexpr double kUnsaidYaw_rad = 3.0;
 // For the components left open by an external pose: a click on a flat map.
@@ -82,16 +80,37 @@ Correction Localizer::add(const LandmarkSighting& received) {
   return correction;
 }
 
-/// Adds the effect of the remaining clock uncertainty of some milliseconds: the motion of the vehicle in that time, now
-/// and when the landmark was built.
+/// Adds what errors of the stamps make of the pose: the motion of the vehicle in that time, now and when the landmark was
+/// built. An offset of the clock displaces both alike: of a landmark of this journey that is seen again in the same
+/// direction, nothing of it is left; a landmark of an earlier journey was not displaced.
 LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sighting) const {
   LandmarkSighting wider = sighting;
-  if (const auto twist = chain_.twist(in_odometry_time(sighting.stamp_ns))) {
-    const double sigma_s =
-        is_clock_doubtful_ ? kUnknownClock_s : std::min(std::sqrt(clock_.variance_s2()), kMaxStampSigma_s);
-    wider.covariance += 2.0 * vision::stamp_covariance(sighting.landmark_from_base, *twist, sigma_s);
+  const auto twist = chain_.twist(in_odometry_time(sighting.stamp_ns));
+  if (!twist) return wider;
+  const Eigen::Isometry3d& seen = sighting.landmark_from_base;
+  wider.velocity_m_s = twist->head<3>();
+  vision::Vector6d moved;
+  moved << seen.linear() * twist->head<3>(), seen.linear() * twist->tail<3>();
+  if (const auto built = built_twists_.find(sighting.landmark_id); built != built_twists_.end()) {
+    const Eigen::Vector3d then = built->second.head<3>(), turning = built->second.tail<3>();
+    moved.head<3>() -= then + turning.cross(seen.translation());
+    moved.tail<3>() -= turning;
   }
+  const double sigma_s = clock_sigma_s();
+  wider.covariance += sigma_s * sigma_s * moved * moved.transpose() +
+                      2.0 * vision::stamp_covariance(seen, *twist, std::min(sigma_s, kStampSigma_s));
   return wider;
+}
+
+double Localizer::clock_sigma_s() const {
+  return is_clock_doubtful_ ? kUnknownClock_s : std::sqrt(clock_.variance_s2());
+}
+
+/// What the offset of the clock adds to a position, in the map.
+vision::Matrix6d Localizer::by_clock(const Eigen::Vector3d& velocity_m_s) const {
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  covariance.topLeftCorner<3, 3>() = std::pow(clock_sigma_s(), 2) * velocity_m_s * velocity_m_s.transpose();
+  return covariance;
 }
 
 /// Adds what a panoramic camera that was rotated on its mount since the landmark was built makes of the pose.

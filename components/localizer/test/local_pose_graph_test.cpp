@@ -142,9 +142,9 @@ TEST_F(PastStoredLandmarks, TheCommonErrorsOfAllLandmarksAreThoseOfEachAlone) {
       if (i % 13 == 5) pass(1000 + first + i, x_m + (i % 2 == 0 ? 0.0 : 4.0));
       if (has_fixes && i % 11 == 3) graph.add_fix({}, at_metre(x_m));
     }
-    const auto all = graph.common_covariances();
+    const auto all = graph.common_errors();
     ASSERT_EQ(all.size(), has_fixes ? 120U : 60U);
-    for (const auto& [id, covariance] : all) EXPECT_EQ(covariance, graph.common_covariance(id)) << id;
+    for (const auto& [id, errors] : all) EXPECT_EQ(errors.covariance, graph.common_covariance(id)) << id;
   }
 }
 

@@ -31,7 +31,8 @@ struct LandmarkSighting {
   std::uint32_t landmark_id = 0;
   Eigen::Isometry3d landmark_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  bool stands_alone = true;  ///< false: from few points, needs confirmation
+  bool stands_alone = true;                                ///< false: from few points, needs confirmation
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  ///< of base_link, in its axes: what a wrong stamp changes
 };
 
 /// A number with its standard deviation.
@@ -106,8 +107,14 @@ class LocalPoseGraph {
   vision::Matrix6d common_covariance(std::uint32_t built_id) const {
     return common_covariance(landmark_node(built_id)->at);
   }
-  /// The same for all landmarks of this journey alone, by id, in a time that hardly depends on the others.
-  std::map<std::uint32_t, vision::Matrix6d> common_covariances() const;
+  /// Velocity of the vehicle, in the map, where the earlier journeys' map was seen next; zero if it was not.
+  Eigen::Vector3d velocity_where_known(const OdometrySample& at) const;
+  struct CommonErrors {
+    vision::Matrix6d covariance;
+    Eigen::Vector3d velocity_where_known_m_s;
+  };
+  /// Both, of each landmark of this journey alone, by id, in a time that hardly depends on the others.
+  std::map<std::uint32_t, CommonErrors> common_errors() const;
   /// What scale and direction of the odometry add on the way from where the earlier journeys' map was seen next; zero if
   /// it was not seen.
   vision::Matrix6d since_known(const OdometrySample& at) const;
@@ -178,6 +185,7 @@ class LocalPoseGraph {
   PoseInMap reckoned(const OdometrySample& at) const;
   PoseInMap reckoned(const OdometrySample& at, const Node& from) const;
   vision::Matrix6d common_covariance(const OdometrySample& at, const From& from) const;
+  static Eigen::Vector3d velocity_at(const Node* pass);
   vision::Matrix6d since_shown(const OdometrySample& at, const Node* from) const;
   /// `from`: solved_node()
   vision::Matrix6d since_solution(const OdometrySample& at, const Node* from) const;

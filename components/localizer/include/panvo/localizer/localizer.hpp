@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -197,6 +198,8 @@ class Localizer {
   bool follows(const PendingRelocalization& now, const PendingRelocalization& before) const;
   bool vouches(const PendingRelocalization& before, const PendingRelocalization& now) const;
   bool agree(const PendingRelocalization& before, const PendingRelocalization& now) const;
+  double clock_sigma_s() const;
+  vision::Matrix6d by_clock(const Eigen::Vector3d& velocity_m_s) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   LandmarkSighting with_uncertain_mount(const LandmarkSighting& sighting) const;
   AzimuthMeasurement unwrapped(AzimuthMeasurement azimuth) const;
@@ -221,7 +224,7 @@ class Localizer {
   ClockOffset clock_;
   vision::ClockSearch clock_search_;
   vision::ClockDoubt clock_doubt_;
-  bool is_clock_doubtful_ = false;            // it may have been stepped
+  bool is_clock_doubtful_ = false;            // it may have been stepped, or has a large offset that is unknown yet
   std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
   std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times
   TurnErrorFilter turn_error_;
@@ -231,8 +234,9 @@ class Localizer {
   LocalPoseGraph graph_;
   ExtrinsicsMonitor mounting_;
   MountingHistory mounts_;
-  GnssTrial fix_trial_;                      // of fixes that are not used
-  std::optional<double> last_fix_at_way_m_;  // used or on trial
+  std::map<std::uint32_t, vision::Vector6d> built_twists_;  // of the vehicle at its landmarks, in its axes
+  GnssTrial fix_trial_;                                     // of fixes that are not used
+  std::optional<double> last_fix_at_way_m_;                 // used or on trial
   std::optional<PoseInMap> known_enu_;
 
   Eigen::Isometry3d last_raw_ = Eigen::Isometry3d::Identity();

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "panvo/localizer/localizer.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+constexpr double kStraightSpeed = 7.0;  // m/s
+constexpr int kPlaces = 8;
+constexpr double kSpacing_m = 7.0;
+
+/// A vehicle on a straight road of a stored map, whose panoramas are stamped late. Everything else is exact.
+class OnAStraightRoad {
+ public:
+  explicit OnAStraightRoad(double late_s, double clock_sigma_s = 0.05) : late_s_(late_s), localizer(of(clock_sigma_s)) {
+    for (std::uint32_t id = 1; id <= kPlaces; ++id) {
+      localizer.add_known({id, 1, Eigen::Isometry3d(Eigen::Translation3d(kSpacing_m * id, 0.0, 0.0)),
+                           1e-4 * vision::Matrix6d::Identity()});
+    }
+  }
+
+  /// Sees each place twice as it passes; `turn_rad`: of one panorama that shows a turn which the vehicle does not make.
+  void drive(double turn_rad = 0.0) {
+    for (int frame = 0; frame <= 10 * (kPlaces + 1); ++frame) {
+      localizer.add(OdometryPose{ns(0.1 * frame), at(0.1 * frame), 1e-6 * (frame + 1) * vision::Matrix6d::Identity()});
+      if (frame < 10) continue;
+      const double taken_s = 0.1 * frame - 0.5;
+      if (frame == 15 && turn_rad != 0.0) {
+        localizer.add(AzimuthMeasurement{ns(taken_s - 0.4 + late_s_), ns(taken_s + late_s_), turn_rad, 1e-6});
+      }
+      if (frame % 10 > 1) continue;
+      see(static_cast<std::uint32_t>(frame / 10), taken_s);
+    }
+  }
+
+  double off_m() const {
+    const auto& here = localizer.latest();
+    return here.map_from_base.translation().x() - kStraightSpeed * 1e-9 * static_cast<double>(here.stamp_ns);
+  }
+  double sigma_ahead_m() const { return std::sqrt(localizer.latest().covariance(0, 0)); }
+  double sigma_aside_m() const { return std::sqrt(localizer.latest().covariance(1, 1)); }
+
+ private:
+  static Parameters of(double clock_sigma_s) {
+    Parameters parameters;
+    parameters.clock_sigma_s = clock_sigma_s;
+    return parameters;
+  }
+  static std::int64_t ns(double time_s) { return std::llround(1e9 * time_s); }
+  static Eigen::Isometry3d at(double time_s) {
+    return Eigen::Isometry3d(Eigen::Translation3d(kStraightSpeed * time_s, 0.0, 0.0));
+  }
+
+  void see(std::uint32_t place, double taken_s) {
+    if (place == 0 || place > kPlaces) return;
+    LandmarkSighting sighting;
+    sighting.stamp_ns = ns(taken_s + late_s_);
+    sighting.landmark_id = place;
+    sighting.landmark_from_base = Eigen::Translation3d(-kSpacing_m * place, 0.0, 0.0) * at(taken_s);
+    sighting.covariance = 1e-4 * vision::Matrix6d::Identity();
+    localizer.add(sighting);
+  }
+
+  double late_s_;
+
+ public:
+  Localizer localizer;
+};
+
+TEST(LocalizerWithLatePanoramas, KnowsOnAStraightRoadOfAStoredMapThatTheyMayBeLate) {
+  for (const double late_s : {0.05, 0.15, -0.1}) {
+    OnAStraightRoad road(late_s);
+    road.drive();
+    ASSERT_EQ(road.localizer.latest().state, State::kTracking);
+    EXPECT_NEAR(road.off_m(), -kStraightSpeed * late_s, 0.02) << "nothing shows it";
+    EXPECT_LT(std::abs(road.off_m()), 3.3 * road.sigma_ahead_m());
+    EXPECT_LT(road.sigma_ahead_m(), 1.5 * kStraightSpeed * 0.05);
+    EXPECT_LT(road.sigma_aside_m(), 0.25) << "which the clock does not change";
+  }
+}
+
+TEST(LocalizerWithLatePanoramas, KnowsThePositionAheadWithOneClock) {
+  OnAStraightRoad road(0.0, 0.0);
+  road.drive();
+  ASSERT_EQ(road.localizer.latest().state, State::kTracking);
+  EXPECT_LT(road.sigma_ahead_m(), 0.05);
+}
+
+TEST(LocalizerWithLatePanoramas, ExpectsALargerOffsetOnceATurnContradictsTheOdometry) {
+  OnAStraightRoad road(0.3);
+  road.drive(0.2);
+  ASSERT_FALSE(road.localizer.is_clock_known());
+  EXPECT_LT(std::abs(road.off_m()), 2.0 * road.sigma_ahead_m());
+}
+
+TEST(LocalizerWithLatePanoramas, MakesLandmarksWhosePositionsMayBeOffAlongTheRoad) {
+  Localizer localizer({});
+  for (int frame = 0; frame <= 50; ++frame) {
+    const Eigen::Isometry3d pose(Eigen::Translation3d(kStraightSpeed * 0.1 * frame, 0.0, 0.0));
+    localizer.add(OdometryPose{100'000'000LL * frame, pose, 1e-8 * (frame + 1) * vision::Matrix6d::Identity()});
+  }
+  ASSERT_TRUE(localizer.add_built(1, 4'000'000'000));
+  const auto covariance = localizer.landmarks().at(0).covariance;
+  EXPECT_NEAR(std::sqrt(covariance(0, 0)), kStraightSpeed * 0.05, 0.1 * kStraightSpeed * 0.05);
+}
+
+}  // namespace
+}  // namespace panvo::localizer
