@@ -5,23 +5,51 @@
 #include <cmath>
 #include <numbers>
 
+#include "panvo/vision/clock_search.hpp"
+#include "panvo/vision/seconds.hpp"
+
 namespace panvo::localizer {
 namespace {
 
 constexpr double kNotableOffset_s = 0.02;
 constexpr double kSureOffset_s = 0.004, kSureShare = 0.25;  // standard deviation, or its share of the offset
+constexpr double kMaxInterval_s = 1.0;                      // of panoramas: more is a gap
+// An offset within reach shows in the first bend, by about seven turns.
+constexpr int kManyTurns = 15;
+constexpr double kInBends_s = 4.0;
 constexpr double kNotableDirection_rad = 0.03;
 constexpr double kSureDirection_rad = 0.006;
 
 }  // namespace
 
-void AlignmentNotices::report_clock(const ClockOffset& clock) {
+/// Before the clock is known, the filter moves towards an offset that is too large for it.
+void AlignmentNotices::report_clock(const Localizer& localizer, std::int64_t panorama_ns, AzimuthUse use) {
+  if (localizer.is_clock_known()) return report_offset(localizer.panorama_clock());
+  report_unknown_clock(panorama_ns, use == AzimuthUse::kUnclear);
+}
+
+void AlignmentNotices::report_offset(const ClockOffset& clock) {
   const bool is_sure =
       std::sqrt(clock.variance_s2()) < std::max(kSureOffset_s, kSureShare * std::abs(clock.estimate_s()));
-  if (has_reported_offset_ || !is_sure || std::abs(clock.estimate_s()) <= kNotableOffset_s) return;
-  has_reported_offset_ = true;
+  const double changed_s = clock.estimate_s() - reported_offset_s_;
+  if (!is_sure || std::min(std::abs(changed_s), std::abs(clock.estimate_s())) <= kNotableOffset_s) return;
+  reported_offset_s_ = clock.estimate_s();
   log_.warn("the panoramic camera's clock is {:.0f} ms {} the stereo camera's; compensated",
             1000.0 * std::abs(clock.estimate_s()), clock.estimate_s() > 0.0 ? "ahead of" : "behind");
+}
+
+void AlignmentNotices::report_unknown_clock(std::int64_t panorama_ns, bool is_unclear) {
+  const double since_s = vision::seconds(panorama_ns_, panorama_ns);
+  panorama_ns_ = panorama_ns;
+  if (!is_unclear) return;
+  ++unclear_;
+  unclear_s_ += std::clamp(since_s, 0.0, kMaxInterval_s);
+  if (unclear_ < kManyTurns || unclear_s_ < kInBends_s) return;
+  log_.warn_throttled(
+      "clock",
+      "turns in the panoramas are those of the stereo odometry at no offset of their clock up to {:.1f} "
+      "s: synchronise the clocks and check /tf_static; until then they correct no turn",
+      vision::ClockSearch::kFarthest_s);
 }
 
 void AlignmentNotices::report_direction(const DirectionOffset& offset) {

@@ -249,7 +249,7 @@ class LocalizerComponent final : public runtime::Component {
       context_.log().warn("stereo odometry and compass disagree on the rotation: using the compass");
     }
     was_contradicted_ = is_contradicted;
-    notices_.report_clock(localizer_.panorama_clock());
+    notices_.report_clock(localizer_, azimuth.to_ns, use);
     publish_panorama_time(azimuth.to_ns);
     notices_.report_direction(localizer_.direction_offset());
   }
@@ -280,14 +280,16 @@ class LocalizerComponent final : public runtime::Component {
     }
   }
 
-  /// A large offset of the panoramic camera's clock, when it was found or has changed. Landmarks have moved with it.
+  /// The panoramic camera's clock, once it is known, and when its offset has changed. Landmarks have moved with it.
   void publish_panorama_time(std::int64_t panorama_ns) {
+    if (!localizer_.is_clock_known()) return;
     const std::int64_t ahead_ns = localizer_.panorama_clock().estimate_ns();
-    if (!localizer_.is_clock_known() || std::abs(ahead_ns - panorama_ahead_ns_) < kNotableOffset_ns) return;
+    const bool has_changed = std::abs(ahead_ns - panorama_ahead_ns_.value_or(0)) >= kNotableOffset_ns;
+    if (panorama_ahead_ns_ && !has_changed) return;
     panorama_ahead_ns_ = ahead_ns;
     panorama_time_.publish(to_time_reference(panorama_ns - ahead_ns, panorama_ns));
-    publish_landmarks(panorama_ns);
-    has_learned_ = true;
+    if (has_changed) publish_landmarks(panorama_ns);
+    has_learned_ |= has_changed;
   }
 
   void publish_landmarks(std::int64_t stamp_ns) {
@@ -337,8 +339,8 @@ class LocalizerComponent final : public runtime::Component {
   std::int64_t odometry_at_ns_ = 0;       // arrival of the last message
   std::shared_ptr<const nav_msgs::msg::Odometry> last_odometry_;
   std::optional<std::int64_t> azimuth_ns_;
-  std::int64_t panorama_ahead_ns_ = 0;  // as published
-  bool has_learned_ = false;            // not published yet
+  std::optional<std::int64_t> panorama_ahead_ns_;  // as published
+  bool has_learned_ = false;                       // not published yet
   int unused_ = 0;
   bool was_contradicted_ = false;
 };
