@@ -15,6 +15,8 @@ namespace {
 constexpr double kKeepStep_m = 0.6;   // between two kept panoramas
 constexpr double kKeepPath_m = 35.0;  // a junction is returned only after it is passed
 constexpr double kNearNeighbour_m = 0.5;
+constexpr double kMaxWait_m = 100.0;
+constexpr std::int64_t kMaxWait_ns = 60'000'000'000;  // the localizer can place a landmark for two minutes
 const cv::Size kThumbnail(540, 270);
 
 /// Grey levels that outlive the image, whose pixels belong to a message.
@@ -49,18 +51,37 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
   keep(panorama);
   view_ = detector_.detect(panorama.image, panorama.odom_from_base);
   std::vector<landmarks::PanoramicLandmark> built;
-  const auto take = [&](const Kept& chosen, bool is_junction) {
+  const auto take = [&](const Kept& chosen, bool is_junction, bool may_wait) {
     const Eigen::Vector3d place = map_from_odom_ * chosen.odom_from_base.translation();
     if (!rule_.takes(map, place.head<2>(), chosen.travelled_m)) return;
-    if (auto landmark = build(chosen, is_junction, map)) built.push_back(std::move(*landmark));
+    if (may_wait && parameters_.rule.wait_for_clock && !is_clock_known_) {
+      waiting_.push_back({chosen.travelled_m, panorama.stamp_ns, is_junction});
+    } else if (auto landmark = build(chosen, is_junction, map)) {
+      built.push_back(std::move(*landmark));
+    }
   };
+  for (; !waiting_.empty() && has_waited(waiting_.front(), panorama.stamp_ns); waiting_.pop_front()) {
+    const Kept& chosen = nearest_to_travelled(waiting_.front().travelled_m);
+    const bool is_kept = std::abs(chosen.travelled_m - waiting_.front().travelled_m) < kKeepStep_m;
+    if (is_kept) take(chosen, waiting_.front().is_junction, false);
+  }
   for (const PassedJunction& junction : filter_.add(panorama.stamp_ns, position.head<2>(), view_.seen)) {
-    take(nearest_to_stamp(junction.nearest_stamp_ns), true);
+    take(nearest_to_stamp(junction.nearest_stamp_ns), true, true);
   }
   // by the distance rule, far enough back to have panoramas on both sides; not while a junction is pending
   const double back_m = travelled_m_ - parameters_.max_neighbour_distance_m;
-  if (!filter_.is_pending() && rule_.is_due(map, back_m)) take(nearest_to_travelled(back_m), false);
+  if (!filter_.is_pending() && is_due(map, back_m)) take(nearest_to_travelled(back_m), false, true);
   return built;
+}
+
+bool LandmarkBuilder::has_waited(const Waiting& landmark, std::int64_t now_ns) const {
+  const double most_m = parameters_.rule.max_spacing_m > 0.0 ? parameters_.rule.max_spacing_m : kMaxWait_m;
+  return is_clock_known_ || now_ns - landmark.since_ns > kMaxWait_ns || travelled_m_ - landmark.travelled_m > most_m;
+}
+
+bool LandmarkBuilder::is_due(const landmarks::MapReplica& map, double travelled_m) const {
+  const bool is_soon = !waiting_.empty() && travelled_m - waiting_.back().travelled_m < parameters_.rule.max_spacing_m;
+  return !is_soon && rule_.is_due(map, travelled_m);
 }
 
 void LandmarkBuilder::keep(const PosedPanorama& panorama) {
@@ -69,7 +90,13 @@ void LandmarkBuilder::keep(const PosedPanorama& panorama) {
             panorama.odom_from_base, panorama.covariance,       travelled_m_};
   if (parameters_.thumbnail_quality > 0) cv::resize(panorama.image, kept.thumbnail, kThumbnail, 0, 0, cv::INTER_AREA);
   kept_.push_back(std::move(kept));
-  while (travelled_m_ - kept_.front().travelled_m > kKeepPath_m) kept_.pop_front();
+  const double around_m = parameters_.max_neighbour_distance_m + kKeepStep_m;
+  std::erase_if(kept_, [&](const Kept& old) {
+    const bool is_needed = std::ranges::any_of(waiting_, [&](const Waiting& landmark) {
+      return std::abs(old.travelled_m - landmark.travelled_m) <= around_m;
+    });
+    return travelled_m_ - old.travelled_m > kKeepPath_m && !is_needed;
+  });
 }
 
 void LandmarkBuilder::set_poses(const PoseOf& odom_from_base) {

@@ -85,7 +85,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
     vision::Matrix6d covariance;
   };
 
-  static constexpr std::size_t kMaxOdometry = 1000;  // poses: of the panoramas that the builder keeps
+  static constexpr std::size_t kMaxOdometry = 2000;  // poses: of the panoramas that the builder keeps
   static constexpr std::size_t kMaxWaiting = 10;     // panoramas waiting for odometry
   static constexpr std::int64_t kMaxGap_ns = 1'000'000'000;
 
@@ -109,7 +109,9 @@ class LandmarkBuilderComponent final : public runtime::Component {
 
   void on_time_reference(const sensor_msgs::msg::TimeReference& message) {
     panorama_ahead_ns_ = conversions::to_ns(message.time_ref()) - conversions::stamp_ns(message);
+    is_clock_known_ = true;
     if (!builder_) return;
+    builder_->set_clock_known();
     builder_->set_poses([this](std::int64_t stamp_ns) -> std::optional<Eigen::Isometry3d> {
       const auto pose = pose_at(in_odometry_time(stamp_ns));
       return pose ? std::optional(pose->odom_from_base) : std::nullopt;
@@ -241,6 +243,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
     }
     size_ = size;
     builder_->set_seen(level_.level_mask(seen_));
+    if (is_clock_known_) builder_->set_clock_known();
     return true;
   }
 
@@ -258,7 +261,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
   cv::Size size_;
   cv::Mat seen_;                        // all but the vehicle; empty: unknown
   std::int64_t panorama_ahead_ns_ = 0;  // the panoramic camera's clock
-  vision::StampSequence stamps_;        // of the odometry
+  bool is_clock_known_ = false;
+  vision::StampSequence stamps_;  // of the odometry
   std::deque<Odometry> odometry_;
   Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<std::shared_ptr<const sensor_msgs::msg::Image>> waiting_;

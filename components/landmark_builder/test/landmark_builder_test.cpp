@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "painted_town.hpp"
 
 namespace panvo::landmark_builder {
@@ -33,6 +35,18 @@ landmarks::MapReplica map_with(std::uint32_t id, const Eigen::Vector3d& position
   landmarks::MapReplica map;
   map.move({{id, Eigen::Isometry3d(Eigen::Translation3d(position))}});
   return map;
+}
+
+/// Median of the distances of near points over the true ones: everything lies on the ground, 2 m below the camera.
+double range_ratio(const landmarks::PanoramicLandmark& landmark) {
+  constexpr float kNear_m = 12.0F;
+  std::vector<double> ratios;
+  for (const auto& keypoint : landmark.keypoints) {
+    if (!keypoint.has_point || keypoint.bearing.y() < 2.0F / kNear_m) continue;
+    ratios.push_back(static_cast<double>(keypoint.point_in_panorama.norm() * keypoint.bearing.y() / 2.0F));
+  }
+  std::ranges::sort(ratios);
+  return ratios.empty() ? 0.0 : ratios[ratios.size() / 2];
 }
 
 /// No landmark at the start of the drive.
@@ -82,6 +96,53 @@ TEST(LandmarkBuilder, MakesOneWhereANewMapBegins) {
   EXPECT_FALSE(built[0].is_junction);
   EXPECT_NEAR(built[0].map_from_base.translation().x(), -26.0, 1.0);
   EXPECT_TRUE(built[1].is_junction);
+}
+
+/// The panoramas of a vehicle that starts, by a clock that is late: its odometry was farther on at their stamps.
+TEST(LandmarkBuilder, MakesTheFirstOfANewMapOnceTheTimesOfItsPanoramasAreKnown) {
+  constexpr double kFrom_m = -30.0, kTo_m = -8.0, kTooFar = 1.1;
+  const PaintedTown town = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
+  BuilderParameters waiting;
+  waiting.rule.wait_for_clock = true;
+  LandmarkBuilder builder = make_builder(waiting);
+  landmarks::MapReplica map;
+  for (double x = kFrom_m; x < kTo_m; x += 1.0) {
+    PosedPanorama early = posed(town, x);
+    early.odom_from_base.translation().x() = kFrom_m + kTooFar * (x - kFrom_m);
+    EXPECT_THAT(builder.step(early, map), IsEmpty());
+  }
+  builder.set_clock_known();
+  builder.set_poses(
+      [](std::int64_t stamp_ns) { return PaintedTown::at(1e-9 * static_cast<double>(stamp_ns) - 100.0, -1.5, 0.0); });
+  const auto built = builder.step(posed(town, kTo_m), map);
+  ASSERT_THAT(built, SizeIs(1));
+  EXPECT_EQ(built[0].stamp_ns, static_cast<std::int64_t>(1e9 * (100.0 + built[0].map_from_base.translation().x())));
+  EXPECT_NEAR(built[0].map_from_base.translation().x(), -26.0, 1.0);
+  EXPECT_NEAR(range_ratio(built[0]), 1.0, 0.04);
+}
+
+TEST(LandmarkBuilder, MakesAllThatWaitedOnceTheTimesOfItsPanoramasAreKnown) {
+  const PaintedTown town = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
+  BuilderParameters waiting;
+  waiting.rule.wait_for_clock = true;
+  LandmarkBuilder builder = make_builder(waiting);
+  EXPECT_THAT(drive(builder, town, -30.0, 25.0), IsEmpty());
+  builder.set_clock_known();
+  const auto built = drive(builder, town, 25.0, 26.0);
+  ASSERT_THAT(built, SizeIs(2));
+  EXPECT_NEAR(built[0].map_from_base.translation().x(), -26.0, 1.0);
+  EXPECT_TRUE(built[1].is_junction);
+  EXPECT_LT(std::abs(built[1].map_from_base.translation().x()), 4.0);
+}
+
+TEST(LandmarkBuilder, WaitsForTheTimesOfItsPanoramasUntilTheNextIsDue) {
+  BuilderParameters waiting;
+  waiting.rule.wait_for_clock = true;
+  waiting.rule.max_spacing_m = 20.0;
+  LandmarkBuilder builder = make_builder(waiting);
+  const auto built = drive(builder, PaintedTown::star({0.0, M_PI}), -30.0, 2.0);
+  ASSERT_THAT(built, SizeIs(1)) << "another one waits now";
+  EXPECT_NEAR(built[0].map_from_base.translation().x(), -26.0, 1.0);
 }
 
 TEST(LandmarkBuilder, MakesNoneWhereThePlaceWasRecognised) {

@@ -79,6 +79,9 @@ class LandmarkBuilder {
   using PoseOf = std::function<std::optional<Eigen::Isometry3d>(std::int64_t stamp_ns)>;
   void set_poses(const PoseOf& odom_from_base);
 
+  /// The poses of panoramas are those of the times at which they were taken: landmarks need not wait.
+  void set_clock_known() { is_clock_known_ = true; }
+
   /// Keypoints are not taken from what the vehicle covers: 0 in `seen` (CV_8UC1, any size, for the whole panorama).
   void set_seen(const cv::Mat& seen) { seen_ = seen; }
 
@@ -98,7 +101,16 @@ class LandmarkBuilder {
     double travelled_m;
   };
 
+  /// A landmark to be built once the clock is known.
+  struct Waiting {
+    double travelled_m;     // of its panorama
+    std::int64_t since_ns;  // by the stamps of panoramas
+    bool is_junction;
+  };
+
   void keep(const PosedPanorama& panorama);
+  bool has_waited(const Waiting& landmark, std::int64_t now_ns) const;
+  bool is_due(const landmarks::MapReplica& map, double travelled_m) const;
   const Kept& nearest_to_stamp(std::int64_t stamp_ns) const;
   const Kept& nearest_to_travelled(double travelled_m) const;
   std::vector<const Kept*> neighbours_of(const Kept& chosen) const;
@@ -117,6 +129,8 @@ class LandmarkBuilder {
   cv::Mat seen_;  // for keypoints; empty: all of the panorama
   std::optional<Eigen::Vector3d> last_position_;
   double travelled_m_ = 0.0;
+  bool is_clock_known_ = false;  // of the panoramas
+  std::deque<Waiting> waiting_;  // along the path
 };
 
 }  // namespace panvo::landmark_builder
