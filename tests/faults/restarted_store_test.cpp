@@ -128,6 +128,21 @@ class RestartedStore : public testing::Test {
     for (const auto& landmark : LandmarkStore(file_).landmarks()) x[landmark.id] = landmark.map_from_base(0, 3);
     return x;
   }
+  /// After a restart, the ids of the other process mean the same landmarks as before.
+  void expect_to_go_on(OtherProcess& others, Process& system) const {
+    Stamps all{{1, made_up_landmark(1).stamp_ns}, {2, made_up_landmark(2).stamp_ns}};
+    all.insert({{3, made_up_landmark(30).stamp_ns}, {4, made_up_landmark(40).stamp_ns}});
+    EXPECT_TRUE(eventually([&] { return others.received().size() >= 4; })) << system.output();
+    EXPECT_EQ(others.received(), all) << "as before";
+    others.move({as(3, 30, 2.0), as(4, 40, 7.0)});
+    others.build(as(5, 50));
+    const std::map<std::uint32_t, double> expected{
+        {1, as(1, 1).map_from_base(0, 3)},       {2, as(2, 2).map_from_base(0, 3)},
+        {3, as(3, 3).map_from_base(0, 3)},       {4, as(3, 30, 2.0).map_from_base(0, 3)},
+        {5, as(4, 40, 7.0).map_from_base(0, 3)}, {6, as(5, 50).map_from_base(0, 3)}};
+    EXPECT_TRUE(eventually([&] { return stored_x() == expected; })) << system.output();
+    EXPECT_EQ(stored_x(), expected);
+  }
 
   TemporaryFolder folder_;
   const std::string file_ = folder_ / "places";
@@ -145,19 +160,29 @@ TEST_F(RestartedStore, GoesOnWithTheIdsOfTheRun) {
   const pid_t killed = child_of(system, "store");
   others.forget();
   kill(killed, SIGKILL);
-  Stamps all = earlier;
-  all.insert({{3, made_up_landmark(30).stamp_ns}, {4, made_up_landmark(40).stamp_ns}});
-  EXPECT_TRUE(eventually([&] { return others.received().size() >= 4; })) << system.output();
-  EXPECT_EQ(others.received(), all) << "as before";
-  others.move({as(3, 30, 2.0), as(4, 40, 7.0)});
-  others.build(as(5, 50));
-  const std::map<std::uint32_t, double> expected{
-      {1, as(1, 1).map_from_base(0, 3)},       {2, as(2, 2).map_from_base(0, 3)},
-      {3, as(3, 3).map_from_base(0, 3)},       {4, as(3, 30, 2.0).map_from_base(0, 3)},
-      {5, as(4, 40, 7.0).map_from_base(0, 3)}, {6, as(5, 50).map_from_base(0, 3)}};
-  EXPECT_TRUE(eventually([&] { return stored_x() == expected; })) << system.output();
-  EXPECT_EQ(stored_x(), expected);
+  expect_to_go_on(others, system);
   EXPECT_THAT(system.output(), testing::HasSubstr("restarting container store"));
+  system.signal(SIGINT);
+  EXPECT_EQ(system.wait(), 0) << system.output();
+}
+
+/// As services that are restarted one by one: each launcher begins a run of its own.
+TEST_F(RestartedStore, GoesOnWithTheIdsOfTheRunWithALauncherOfItsOwn) {
+  OtherProcess others;
+  const std::vector<std::string> command{PANVO_RUN, folder_ / "system.yaml", "--domain",
+                                         std::to_string(runtime::test_domain())};
+  {
+    Process system(command);
+    ASSERT_TRUE(eventually([&] { return others.received().size() == 2; })) << system.output();
+    others.build(as(3, 30));
+    others.build(as(4, 40));
+    ASSERT_TRUE(eventually([&] { return stored_x().size() == 5; })) << system.output();
+    system.signal(SIGINT);
+    EXPECT_EQ(system.wait(), 0) << system.output();
+  }
+  others.forget();
+  Process system(command);
+  expect_to_go_on(others, system);
   system.signal(SIGINT);
   EXPECT_EQ(system.wait(), 0) << system.output();
 }
