@@ -142,6 +142,15 @@ TEST_F(LandmarkBuilderComponent, ReplacesThePosesOfEarlierPanoramasWhenTheClockI
   EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(*landmarks_[0])) * 1e-9, 100.3 + 0.2 * x, 1e-3);
 }
 
+TEST_F(LandmarkBuilderComponent, WaitsUntilTheClockIsFound) {
+  load({{"rule.wait_for_clock", "true"}});
+  publish_mounting();
+  drive(28.0, -28.0, 30.0);
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  const double x = landmarks_[0]->pose().pose().position().x();
+  EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(*landmarks_[0])) * 1e-9, 100.3 + 0.2 * x, 1e-3);
+}
+
 TEST_F(LandmarkBuilderComponent, BuildsOnIfTheClockIsSetBack) {
   load({{"rule.first_m", "4"}});
   publish_mounting();
