@@ -79,6 +79,16 @@ def check_test_folders(root):
             for lists in sorted((root / "tests").glob("*/CMakeLists.txt")) if lists.parent.name not in named]
 
 
+def check_test_sources(root, folder):
+    """Each test source is named in a CMakeLists.txt, or one finds them all; otherwise its tests would never run."""
+    text = cmake_text(root, folder)
+    if re.search(r"GLOB[^)]*_test\.cpp", text):
+        return []
+    return [f"{file.relative_to(root)}: no CMakeLists.txt of the package names it: its tests never run"
+            for file in sorted((root / folder).rglob("*_test.cpp"))
+            if file.name not in text and not is_of_inner_package(root / folder, file)]
+
+
 def check_debian_packages(root):
     list_file = root / "launch_scripts" / "packages.txt"
     if not list_file.is_file():
@@ -103,7 +113,7 @@ def check(root):
     complaints = []
     folders = workspace.package_folders(root)
     for folder in folders:
-        complaints += check_package(root, folder, order)
+        complaints += check_package(root, folder, order) + check_test_sources(root, folder)
     for folder in order:
         if pathlib.Path(folder) not in folders:
             complaints.append(f"CMakeLists.txt: package_folders lists {folder}, which does not exist")

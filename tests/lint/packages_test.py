@@ -42,6 +42,10 @@ class PackagesTest(sample.RuleTest):
     def test_a_component_without_readme(self):
         self.assert_finds(packages, "components/compass: has no README.md", {"components/compass/README.md": None})
 
+    def test_a_test_that_nobody_builds(self):
+        self.assert_finds(packages, "components/vision/test/camera_test.cpp: no CMakeLists.txt of the package names it",
+                          {"components/vision/test/camera_test.cpp": ""})
+
     def test_a_folder_of_tests_that_nobody_adds(self):
         self.assert_finds(packages, "does not list the folder faults", {
             "tests/CMakeLists.txt": "foreach(folder IN ITEMS lint)\n", "tests/faults/CMakeLists.txt": "", "tests/lint/CMakeLists.txt": ""})

@@ -35,7 +35,7 @@ def whole_workspace():
         "components/vision/README.md": "# vision\n",
         "components/vision/include/panvo/vision/pose.hpp": LICENCE + "#pragma once\n#include <Eigen/Core>\n",
         "components/compass/package.xml": package_xml("panvo_compass", ["panvo_vision"]),
-        "components/compass/CMakeLists.txt": cmake_lists("panvo_compass", ["panvo_vision"]),
+        "components/compass/CMakeLists.txt": cmake_lists("panvo_compass", ["panvo_vision"]) + "panvo_add_test(t SOURCES test/compass_test.cpp)\n",
         "components/compass/README.md": "# compass\n",
         "components/compass/src/compass.cpp": LICENCE + '#include "panvo/vision/pose.hpp"\n',
         "components/compass/src/compass_component.cpp": LICENCE + '#include "panvo/runtime/component.hpp"\n',

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -116,11 +117,18 @@ class FleetComponent final : public runtime::Component {
                                            read.reason());
     }
     const bool is_other = map_.map().is_other(*read);
-    if ((is_other || !since_refused_.empty()) && since_refused_.size() < kMaxRefused) since_refused_.push_back(*read);
+    if (is_other || !since_refused_.empty()) keep_refused(*read);
     if (!is_other) return add(*read);
     context_.log().warn_throttled(fmt::format("landmark {}", read->id),
                                   "landmark {}: its id is that of another one; not shared", read->id);
     if (disputes_.begin({read->id, read->map_from_base, read->covariance})) begin_anew({});
+  }
+
+  /// The last one of each id, and not too many.
+  void keep_refused(const landmarks::PanoramicLandmark& landmark) {
+    std::erase_if(since_refused_, [&](const auto& kept) { return kept.id == landmark.id; });
+    since_refused_.push_back(landmark);
+    if (since_refused_.size() > kMaxRefused) since_refused_.pop_front();
   }
 
   void add(landmarks::PanoramicLandmark landmark) {
@@ -132,9 +140,14 @@ class FleetComponent final : public runtime::Component {
   }
 
   void on_moved(const std::vector<landmarks::LandmarkPose>& moved) {
-    bool is_of_another_map = false;
-    for (const auto& pose : moved) is_of_another_map |= !disputes_.move(pose);
+    bool is_of_another_map = false, is_of_this_map = false;
+    for (const auto& pose : moved) {
+      const bool is_own = disputes_.move(pose);
+      is_of_another_map |= !is_own;
+      is_of_this_map |= is_own && disputes_.is_disputed(pose.id);
+    }
     if (is_of_another_map) return begin_anew(moved);
+    if (is_of_this_map) since_refused_.clear();
     fleet_->move_places(moved);
   }
 
@@ -327,7 +340,7 @@ class FleetComponent final : public runtime::Component {
   conversions::TransformListener transforms_;
   landmarks::MapListener map_;
   landmarks::IdDisputes disputes_;
-  std::vector<landmarks::PanoramicLandmark> since_refused_;  // the first one of the id of another one, and all after it
+  std::deque<landmarks::PanoramicLandmark> since_refused_;  // the first one of the id of another one, and all after it
 
   Eigen::Isometry3d base_from_panorama_ = Eigen::Isometry3d::Identity();
   landmarks::PanoramaLevel level_;

@@ -8,6 +8,7 @@
 
 #include "panvo/landmarks/panorama_check.hpp"
 #include "panvo/vision/grey.hpp"
+#include "panvo/vision/seconds.hpp"
 
 namespace panvo::landmark_builder {
 namespace {
@@ -16,7 +17,6 @@ constexpr double kKeepStep_m = 0.6;   // between two kept panoramas
 constexpr double kKeepPath_m = 35.0;  // a junction is returned only after it is passed
 constexpr double kNearNeighbour_m = 0.5;
 constexpr double kMaxWait_m = 100.0;
-constexpr std::int64_t kMaxWait_ns = 60'000'000'000;  // the localizer can place a landmark for two minutes
 const cv::Size kThumbnail(540, 270);
 
 /// Grey levels that outlive the image, whose pixels belong to a message.
@@ -54,8 +54,8 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
   const auto take = [&](const Kept& chosen, bool is_junction, bool may_wait) {
     const Eigen::Vector3d place = map_from_odom_ * chosen.odom_from_base.translation();
     if (!rule_.takes(map, place.head<2>(), chosen.travelled_m)) return;
-    if (may_wait && parameters_.rule.wait_for_clock && !is_clock_known_) {
-      waiting_.push_back({chosen.travelled_m, panorama.stamp_ns, is_junction});
+    if (may_wait && parameters_.rule.wait_for_clock_s > 0.0 && !is_clock_known_) {
+      waiting_.push_back({chosen.travelled_m, chosen.stamp_ns, is_junction});
     } else if (auto landmark = build(chosen, is_junction, map)) {
       built.push_back(std::move(*landmark));
     }
@@ -76,7 +76,8 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
 
 bool LandmarkBuilder::has_waited(const Waiting& landmark, std::int64_t now_ns) const {
   const double most_m = parameters_.rule.max_spacing_m > 0.0 ? parameters_.rule.max_spacing_m : kMaxWait_m;
-  return is_clock_known_ || now_ns - landmark.since_ns > kMaxWait_ns || travelled_m_ - landmark.travelled_m > most_m;
+  return is_clock_known_ || travelled_m_ - landmark.travelled_m > most_m ||
+         vision::seconds(landmark.stamp_ns, now_ns) > parameters_.rule.wait_for_clock_s;
 }
 
 bool LandmarkBuilder::is_due(const landmarks::MapReplica& map, double travelled_m) const {

@@ -143,7 +143,7 @@ TEST_F(LandmarkBuilderComponent, ReplacesThePosesOfEarlierPanoramasWhenTheClockI
 }
 
 TEST_F(LandmarkBuilderComponent, WaitsUntilTheClockIsFound) {
-  load({{"rule.wait_for_clock", "true"}});
+  load({{"rule.wait_for_clock_s", "60"}});
   publish_mounting();
   drive(28.0, -28.0, 30.0);
   ASSERT_THAT(landmarks_, SizeIs(1));

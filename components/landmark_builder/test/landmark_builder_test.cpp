@@ -103,7 +103,7 @@ TEST(LandmarkBuilder, MakesTheFirstOfANewMapOnceTheTimesOfItsPanoramasAreKnown) 
   constexpr double kFrom_m = -30.0, kTo_m = -8.0, kTooFar = 1.1;
   const PaintedTown town = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
   BuilderParameters waiting;
-  waiting.rule.wait_for_clock = true;
+  waiting.rule.wait_for_clock_s = 60.0;
   LandmarkBuilder builder = make_builder(waiting);
   landmarks::MapReplica map;
   for (double x = kFrom_m; x < kTo_m; x += 1.0) {
@@ -124,7 +124,7 @@ TEST(LandmarkBuilder, MakesTheFirstOfANewMapOnceTheTimesOfItsPanoramasAreKnown) 
 TEST(LandmarkBuilder, MakesAllThatWaitedOnceTheTimesOfItsPanoramasAreKnown) {
   const PaintedTown town = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
   BuilderParameters waiting;
-  waiting.rule.wait_for_clock = true;
+  waiting.rule.wait_for_clock_s = 60.0;
   LandmarkBuilder builder = make_builder(waiting);
   EXPECT_THAT(drive(builder, town, -30.0, 25.0), IsEmpty());
   builder.set_clock_known();
@@ -137,7 +137,7 @@ TEST(LandmarkBuilder, MakesAllThatWaitedOnceTheTimesOfItsPanoramasAreKnown) {
 
 TEST(LandmarkBuilder, WaitsForTheTimesOfItsPanoramasUntilTheNextIsDue) {
   BuilderParameters waiting;
-  waiting.rule.wait_for_clock = true;
+  waiting.rule.wait_for_clock_s = 60.0;
   waiting.rule.max_spacing_m = 20.0;
   LandmarkBuilder builder = make_builder(waiting);
   const auto built = drive(builder, PaintedTown::star({0.0, M_PI}), -30.0, 2.0);

@@ -89,7 +89,8 @@ class LandmarkStoreComponent final : public runtime::Component {
     const auto own = std::ranges::find(runs, run_.id, &StoredRun::id);
     if (own != runs.end()) {
       resumed_ = *own;
-    } else if (std::ranges::any_of(runs, has_own_ids)) {
+    } else if (!location_.is_server() && std::ranges::any_of(runs, has_own_ids)) {
+      // A database has the runs of other robots, too: which of them this is could not be told in time.
       finder_.emplace(std::move(runs), store_->landmarks());
       if (!finder_->is_needed()) finder_.reset();
     }
@@ -242,6 +243,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     auto landmark = *read;
     if (finder_) {
       early_.push_back(shared);
+      if (early_.size() > static_cast<std::size_t>(parameters_.waiting)) early_.erase(early_.begin());
       if (finder_->hear(landmark)) settle();
       return;
     }

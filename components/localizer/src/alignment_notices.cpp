@@ -47,8 +47,8 @@ void AlignmentNotices::report_unknown_clock(std::int64_t panorama_ns, bool is_un
   if (unclear_ < kManyTurns || unclear_s_ < kInBends_s) return;
   log_.warn_throttled(
       "clock",
-      "turns in the panoramas are those of the stereo odometry at no offset of their clock up to {:.1f} "
-      "s: synchronise the clocks and check /tf_static; until then they correct no turn",
+      "no offset of the panoramic camera's clock up to {:.1f} s makes its turns agree with the stereo odometry's: "
+      "synchronise the clocks and check /tf_static; until then panoramas correct no turn",
       vision::ClockSearch::kFarthest_s);
 }
 

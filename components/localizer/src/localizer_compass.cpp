@@ -115,7 +115,7 @@ void Localizer::agree(std::int64_t panorama_stamp_ns, double disagreement_rad, d
 /// or if a clock that was set since explains it.
 bool Localizer::may_be_of_another_time(const AzimuthMeasurement& azimuth, double within_rad) {
   if (parameters_.clock_sigma_s == 0.0) return false;
-  if (!is_clock_known()) return is_clock_doubtful_ = true;  // the offset is larger than was expected
+  if (!is_clock_known()) return true;
   const bool is_explained = clock_doubt_.add(azimuth.from_ns, azimuth.to_ns, azimuth.change_rad, within_rad,
                                              clock_.estimate_ns(), chain_.latest().pose.stamp_ns, turns_of_odometry());
   if (is_explained && !is_clock_doubtful_) clock_search_.forget_turns();

@@ -82,7 +82,8 @@ Correction Localizer::add(const LandmarkSighting& received) {
 
 /// Adds what errors of the stamps make of the pose: the motion of the vehicle in that time, now and when the landmark was
 /// built. An offset of the clock displaces both alike: of a landmark of this journey that is seen again in the same
-/// direction, nothing of it is left; a landmark of an earlier journey was not displaced.
+/// direction, nothing of it is left, unless the clock was stepped in between; a landmark of an earlier journey was not
+/// displaced.
 LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sighting) const {
   LandmarkSighting wider = sighting;
   const auto twist = chain_.twist(in_odometry_time(sighting.stamp_ns));
@@ -91,7 +92,8 @@ LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sightin
   wider.velocity_m_s = twist->head<3>();
   vision::Vector6d moved;
   moved << seen.linear() * twist->head<3>(), seen.linear() * twist->tail<3>();
-  if (const auto built = built_twists_.find(sighting.landmark_id); built != built_twists_.end()) {
+  const auto built = built_twists_.find(sighting.landmark_id);
+  if (built != built_twists_.end() && !is_clock_doubtful_) {
     const Eigen::Vector3d then = built->second.head<3>(), turning = built->second.tail<3>();
     moved.head<3>() -= then + turning.cross(seen.translation());
     moved.tail<3>() -= turning;

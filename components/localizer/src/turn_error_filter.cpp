@@ -30,7 +30,7 @@ void TurnErrorFilter::expect_lean(double sigma_rad_m) {
 TurnErrorChange TurnErrorFilter::add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2) {
   if (std::abs(turn_rad) < kMinTurn_rad && way_m < kMinWay_m) return {};
   has_learned_ = true;
-  if (unlearned_m_ > way_m) covariance_(1, 1) = lean_variance_after(unlearned_m_ - way_m);
+  if (unlearned_m_ > way_m) change_lean(unlearned_m_ - way_m);
   covariance_(1, 1) += walk_per_m() * way_m;
   unlearned_m_ = 0.0;
   const Eigen::Vector2d slope(-turn_rad, -way_m);  // odometry that turns more disagrees in the opposite direction
@@ -45,6 +45,13 @@ TurnErrorChange TurnErrorFilter::add(double disagreement_rad, double turn_rad, d
   // Raising a variance leaves the matrix positive semidefinite.
   covariance_(0, 0) = std::max(covariance_(0, 0), least);
   return {change[0], change[1], memory_m};
+}
+
+/// On a way without measurements, what is unknown of the lean becomes independent of what is unknown of the scale.
+void TurnErrorFilter::change_lean(double way_m) {
+  const double variance = lean_variance_after(way_m);
+  covariance_(0, 1) = covariance_(1, 0) = covariance_(0, 1) * lean_same_after(way_m);
+  covariance_(1, 1) = variance;
 }
 
 double TurnErrorFilter::advance(double way_m) {
@@ -62,9 +69,14 @@ double TurnErrorFilter::advance(double way_m) {
 /// Without measurements, the lean is a Gauss-Markov process. Its best prediction would decrease to zero; but where a
 /// calibration has aged, some of the lean never ends. So the estimate is kept, and what that costs is part of its error.
 double TurnErrorFilter::lean_variance_after(double way_m) const {
-  const double same = lasting_m() > 0.0 ? std::exp(-way_m / lasting_m()) : 1.0;
+  const double same = lean_same_after(way_m);
   return same * same * covariance_(1, 1) + (1.0 - same * same) * std::pow(lean_sigma_rad_m_, 2) +
          std::pow((1.0 - same) * state_[1], 2);
+}
+
+/// The part of the lean that is as before.
+double TurnErrorFilter::lean_same_after(double way_m) const {
+  return lasting_m() > 0.0 ? std::exp(-way_m / lasting_m()) : 1.0;
 }
 
 /// Of what it has turned on this way.

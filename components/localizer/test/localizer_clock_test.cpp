@@ -133,7 +133,7 @@ TEST_F(LocalizerOnAWindingRoad, TellsTheTimeOfThePanoramicCameraOnceItIsKnownToB
 TEST_F(LocalizerOnAWindingRoad, SaysThatThePanoramasTurnAtNoOffsetOfTheirClock) {
   load();
   wind(0, 1000, 900'000'000);
-  EXPECT_TRUE(harness_.log_contains("at no offset of their clock up to 0.6 s"));
+  EXPECT_TRUE(harness_.log_contains("no offset of the panoramic camera's clock up to 0.6 s"));
 }
 
 }  // namespace

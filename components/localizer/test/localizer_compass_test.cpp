@@ -6,13 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <random>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "drive.hpp"
+#include "winding_drive.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -260,39 +258,6 @@ TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {
   const double told_once = position_variance(false);
   EXPECT_NEAR(position_variance(true), told_once, 0.2 * told_once);
 }
-
-/// A vehicle at 2 m/s that turns left and right alternately, and panoramas of every fifth frame.
-struct Winding {
-  static constexpr double kSpeed = 2.0;   // m/s
-  static constexpr double kLate_s = 0.6;  // arrival of panoramas
-
-  static double yaw(double t) { return 0.3 * std::sin(1.3 * t); }
-  static std::int64_t ns(double t) { return static_cast<std::int64_t>(std::llround(t * 1e9)); }
-
-  /// Drives from frame to frame; `extra_rad`: a turn of the odometry that is none.
-  void drive(int from, int to, double ahead_s, const std::function<double(double)>& extra_rad = {}) {
-    for (int i = from; i < to; ++i) {
-      const double t = 100.0 + 0.04 * i;
-      const OdometryPose before = std::exchange(odometry, {});
-      odometry.stamp_ns = ns(t);
-      odometry.odom_from_base.translation().x() = kSpeed * (t - 100.0);
-      odometry.odom_from_base.linear() =
-          vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw(t) + (extra_rad ? extra_rad(t) : 0.0)));
-      odometry.covariance = vision::compose_covariance(before.odom_from_base, before.covariance,
-                                                       before.odom_from_base.inverse() * odometry.odom_from_base,
-                                                       4e-8 * vision::Matrix6d::Identity());
-      localizer.add(odometry);
-      if (i % 5 != 0 || i < 40) continue;
-      const double taken = t - kLate_s;
-      uses.push_back(localizer.add(
-          AzimuthMeasurement{ns(taken - 0.2 + ahead_s), ns(taken + ahead_s), yaw(taken) - yaw(taken - 0.2), 1e-6}));
-    }
-  }
-
-  Localizer localizer{{}};
-  OdometryPose odometry;  // last
-  std::vector<AzimuthUse> uses;
-};
 
 /// Offset of the panoramic camera's clock, s.
 class LocalizerWithOtherClock : public testing::TestWithParam<double> {};

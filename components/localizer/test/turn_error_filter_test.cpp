@@ -155,6 +155,19 @@ TEST(TurnErrorFilter, LearnsAnewAfterALongWayWithoutCompass) {
   EXPECT_LT(known_m, 0.8 * kLastingTurn_rad / 1e-4);
 }
 
+TEST(TurnErrorFilter, ALeanThatMayHaveChangedHasNothingToDoWithTheScale) {
+  TurnErrorFilter filter(0.003, 1e-4);
+  for (int i = 0; i < 100; ++i) filter.add(0.0, 0.02, 4.0, 1e-8);  // tells the sum of both only
+  const auto correlation = [&] {
+    const auto covariance = filter.covariance();
+    return covariance(0, 1) / std::sqrt(covariance(0, 0) * covariance(1, 1));
+  };
+  EXPECT_LT(correlation(), -0.5);
+  for (int i = 0; i < 1000; ++i) filter.advance(1.0);
+  filter.add(0.0, 0.02, 4.0, 1.0);  // tells nothing
+  EXPECT_NEAR(correlation(), 0.0, 0.05);
+}
+
 TEST(TurnErrorFilter, IsNotMovedByAMeasurementThatIsWrong) {
   TurnErrorFilter filter(0.003, 1e-4);
   filter.add(0.2, 0.3, 5.0, 1e-6);

@@ -103,8 +103,8 @@ class LandmarkBuilder {
 
   /// A landmark to be built once the clock is known.
   struct Waiting {
-    double travelled_m;     // of its panorama
-    std::int64_t since_ns;  // by the stamps of panoramas
+    double travelled_m;  // of its panorama
+    std::int64_t stamp_ns;
     bool is_junction;
   };
 

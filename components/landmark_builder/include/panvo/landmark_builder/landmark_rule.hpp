@@ -12,7 +12,7 @@ namespace panvo::landmark_builder {
 struct LandmarkRuleParameters {
   double max_spacing_m = 100.0;
   double first_m = 4.0;
-  bool wait_for_clock = false;
+  double wait_for_clock_s = 0.0;
   double nearby_m = 15.0;
   double known_m = 12.0;
   int appearances = 4;
@@ -26,9 +26,10 @@ struct LandmarkRuleParameters {
     field(&P::first_m, "first_m", "m",
           "path after which the first landmark of a new map is built, to recognise a return to the start", 0.0,
           10000.0);
-    field(&P::wait_for_clock, "wait_for_clock", "",
-          "build landmarks once the panoramic camera's clock is known, at the latest after max_spacing_m or a minute: "
-          "the motion at another time is another one");
+    field(&P::wait_for_clock_s, "wait_for_clock_s", "s",
+          "longest wait of a new landmark until the localizer knows the offset of the panoramic camera's clock, as "
+          "panoramas with wrong stamps make wrong points; it ends after max_spacing_m, too; 0: do not wait",
+          0.0, 60.0);
     field(&P::nearby_m, "nearby_m", "m", "smallest distance of a new landmark from any other", 0.0, 1000.0);
     field(&P::known_m, "known_m", "m", "path before and after a recognised landmark without new landmarks", 0.0,
           1000.0);

@@ -224,7 +224,7 @@ class Localizer {
   ClockOffset clock_;
   vision::ClockSearch clock_search_;
   vision::ClockDoubt clock_doubt_;
-  bool is_clock_doubtful_ = false;            // it may have been stepped, or has a large offset that is unknown yet
+  bool is_clock_doubtful_ = false;            // it may have been stepped
   std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
   std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times
   TurnErrorFilter turn_error_;

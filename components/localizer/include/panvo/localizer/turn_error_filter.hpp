@@ -50,6 +50,8 @@ class TurnErrorFilter {
   double walk_per_m() const;
   double lean_memory_m() const;
   double lasting_m() const;
+  void change_lean(double way_m);
+  double lean_same_after(double way_m) const;
   double lean_variance_after(double way_m) const;
   double heading_variance_after(double way_m) const;
 
