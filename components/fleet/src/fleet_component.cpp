@@ -105,7 +105,7 @@ class FleetComponent final : public runtime::Component {
   }
 
  private:
-  /// Landmarks of a map that may have begun anew: the localizer's poses come with each, and tell it soon.
+  /// Landmarks that may belong to a new map. The localizer publishes poses with each landmark, which soon show it.
   static constexpr std::size_t kMaxRefused = 100;
   static constexpr int kTick_ms = 200;
   static constexpr int kStateTicks = 5;
@@ -121,7 +121,7 @@ class FleetComponent final : public runtime::Component {
     if (!is_other) return add(*read);
     context_.log().warn_throttled(fmt::format("landmark {}", read->id),
                                   "landmark {}: its id is that of another one; not shared", read->id);
-    if (disputes_.begin({read->id, read->map_from_base, read->covariance})) begin_anew({});
+    if (disputes_.begin({read->id, read->map_from_base, read->covariance})) start_new_map({});
   }
 
   /// The last one of each id, and not too many.
@@ -146,7 +146,7 @@ class FleetComponent final : public runtime::Component {
       is_of_another_map |= !is_own;
       is_of_this_map |= is_own && disputes_.is_disputed(pose.id);
     }
-    if (is_of_another_map) return begin_anew(moved);
+    if (is_of_another_map) return start_new_map(moved);
     if (is_of_this_map) since_refused_.clear();
     fleet_->move_places(moved);
   }
@@ -157,10 +157,10 @@ class FleetComponent final : public runtime::Component {
                    parameters_.robot, parameters_.keypoints, describer_, settings_, own_keypoints_, &timer_);
   }
 
-  /// The robot's other components were restarted and have begun a map: the landmarks that were refused are its own, and the
+  /// The robot's other components were restarted and have started a map: the landmarks that were refused are its own, and the
   /// localizer's poses are theirs. For the fleet, this robot was restarted, too.
-  void begin_anew(const std::vector<landmarks::LandmarkPose>& poses) {
-    context_.log().warn("the map of this robot has begun anew: it is shared as another one");
+  void start_new_map(const std::vector<landmarks::LandmarkPose>& poses) {
+    context_.log().warn("this robot has started a new map: it is shared as another one");
     begin();
     disputes_ = {};
     map_.map() = {};

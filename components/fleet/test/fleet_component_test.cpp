@@ -232,7 +232,7 @@ TEST_F(FleetOfComponents, SharesNoLandmarkOfWhichAnotherHasTheId) {
   drives_->say_poses("one", flat(0.1, 0, 0), 10.5, kPlaces);  // the localizer was not
   ASSERT_THAT(harness_.container().run(), IsEmpty());
   EXPECT_TRUE(harness_.log_contains("landmark 1: its id is that of another one; not shared"));
-  EXPECT_FALSE(harness_.log_contains("has begun anew"));
+  EXPECT_FALSE(harness_.log_contains("has started a new map"));
 }
 
 /// All components of a robot but this one are restarted and count places from 1 again, in another map.

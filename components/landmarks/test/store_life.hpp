@@ -106,6 +106,15 @@ class StoreLivesOfEachKind : public ServerTest, public testing::WithParamInterfa
           .execute("UPDATE keypoints SET data = x'00' WHERE landmark_id = 3");
     }
   }
+  /// The third and the fourth one were moved by 2 and 7 m, and a fifth one was added, all by the ids of the run.
+  void expect_moved_and_added() const {
+    const LandmarkStore store(where());
+    ASSERT_EQ(store.size(), 6U);
+    EXPECT_EQ(x_of(3), made_up_landmark(3).map_from_base.translation().x());
+    EXPECT_EQ(difference(whole(store, 4), with_id(4, moved_by(2.0, third_))), "");
+    EXPECT_EQ(difference(whole(store, 5), with_id(5, moved_by(7.0, fourth_))), "");
+    EXPECT_EQ(difference(whole(store, 6), with_id(6, made_up_landmark(50))), "");
+  }
   double x_of(std::uint32_t stored) const {
     for (const auto& landmark : LandmarkStore(where()).landmarks()) {
       if (landmark.id == stored) return landmark.map_from_base.translation().x();

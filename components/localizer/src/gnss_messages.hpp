@@ -19,7 +19,7 @@ struct SatellitePosition {
 };
 
 /// Of a message that satisfies its rules. Variances that are unknown or 0: of a receiver without corrections.
-/// `usual_altitude_m`: used if the message has no altitude. If there is no position, reason() says why.
+/// `usual_altitude_m` replaces an altitude that the message lacks. reason() says why a message gives no position.
 conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message, double usual_altitude_m);
 
 /// The vehicle's position, if the frame of the satellites touches the earth at `plane`.

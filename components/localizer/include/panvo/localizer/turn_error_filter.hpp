@@ -35,7 +35,7 @@ class TurnErrorFilter {
   /// Moves on by a step of the odometry. Returns the variance of the heading that the change of the lean since the last
   /// measurement adds to covariance_of_turns() with errors(), rad^2.
   double advance(double way_m);
-  /// The compass measured the turn up to here: what is unknown of the lean adds up anew.
+  /// The compass measured the turn up to here: the error of the lean accumulates from zero again.
   void measure_turn() { unseen_m_ = told_rad2_ = 0.0; }
 
   /// What odometry turns too much on a step.
