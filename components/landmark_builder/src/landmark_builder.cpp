@@ -51,27 +51,42 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
   keep(panorama);
   view_ = detector_.detect(panorama.image, panorama.odom_from_base);
   std::vector<landmarks::PanoramicLandmark> built;
-  const auto take = [&](const Kept& chosen, bool is_junction, bool may_wait) {
-    const Eigen::Vector3d place = map_from_odom_ * chosen.odom_from_base.translation();
-    if (!rule_.takes(map, place.head<2>(), chosen.travelled_m)) return;
-    if (may_wait && parameters_.rule.wait_for_clock_s > 0.0 && !is_clock_known_) {
+  while (!waiting_.empty() && has_waited(waiting_.front(), panorama.stamp_ns)) build_waiting(map, built);
+  const auto take = [&](const Kept& chosen, bool is_junction) {
+    if (!is_taken(chosen, map)) return;
+    if (parameters_.rule.wait_for_clock_s > 0.0 && !is_clock_known_) {
       waiting_.push_back({chosen.travelled_m, chosen.stamp_ns, is_junction});
     } else if (auto landmark = build(chosen, is_junction, map)) {
       built.push_back(std::move(*landmark));
     }
   };
-  for (; !waiting_.empty() && has_waited(waiting_.front(), panorama.stamp_ns); waiting_.pop_front()) {
-    const Kept& chosen = nearest_to_travelled(waiting_.front().travelled_m);
-    const bool is_kept = std::abs(chosen.travelled_m - waiting_.front().travelled_m) < kKeepStep_m;
-    if (is_kept) take(chosen, waiting_.front().is_junction, false);
-  }
   for (const PassedJunction& junction : filter_.add(panorama.stamp_ns, position.head<2>(), view_.seen)) {
-    take(nearest_to_stamp(junction.nearest_stamp_ns), true, true);
+    take(nearest_to_stamp(junction.nearest_stamp_ns), true);
   }
   // by the distance rule, far enough back to have panoramas on both sides; not while a junction is pending
   const double back_m = travelled_m_ - parameters_.max_neighbour_distance_m;
-  if (!filter_.is_pending() && is_due(map, back_m)) take(nearest_to_travelled(back_m), false, true);
+  if (!filter_.is_pending() && is_due(map, back_m)) take(nearest_to_travelled(back_m), false);
   return built;
+}
+
+std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::finish(landmarks::MapReplica& map) {
+  std::vector<landmarks::PanoramicLandmark> built;
+  while (!waiting_.empty()) build_waiting(map, built);
+  return built;
+}
+
+/// Builds the landmark that has waited longest, unless its panorama is gone or another landmark stands there by now.
+void LandmarkBuilder::build_waiting(landmarks::MapReplica& map, std::vector<landmarks::PanoramicLandmark>& built) {
+  const Waiting waiting = waiting_.front();
+  waiting_.pop_front();
+  const Kept& chosen = nearest_to_travelled(waiting.travelled_m);
+  if (std::abs(chosen.travelled_m - waiting.travelled_m) >= kKeepStep_m || !is_taken(chosen, map)) return;
+  if (auto landmark = build(chosen, waiting.is_junction, map)) built.push_back(std::move(*landmark));
+}
+
+bool LandmarkBuilder::is_taken(const Kept& chosen, const landmarks::MapReplica& map) const {
+  const Eigen::Vector3d place = map_from_odom_ * chosen.odom_from_base.translation();
+  return rule_.takes(map, place.head<2>(), chosen.travelled_m);
 }
 
 bool LandmarkBuilder::has_waited(const Waiting& landmark, std::int64_t now_ns) const {

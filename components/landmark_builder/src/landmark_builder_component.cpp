@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
@@ -76,6 +77,9 @@ class LandmarkBuilderComponent final : public runtime::Component {
     context.input(topics::kLandmarkMatch, [this](const auto& message) { on_match(*message); });
     context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(message); });
+    context.before_end([this] {
+      if (builder_) publish(builder_->finish(map_.map()));
+    });
   }
 
  private:
@@ -203,8 +207,12 @@ class LandmarkBuilderComponent final : public runtime::Component {
           context_.resolved_name(topics::kPanorama), size_.width, size_.height, panorama.cols, panorama.rows);
     }
     last_stamp_ns_ = stamp_ns;
-    for (const auto& landmark : builder_->step(
-             {stamp_ns, level_.level(panorama), pose->odom_from_base, pose->covariance, map_from_odom_}, map_.map())) {
+    publish(builder_->step({stamp_ns, level_.level(panorama), pose->odom_from_base, pose->covariance, map_from_odom_},
+                           map_.map()));
+  }
+
+  void publish(const std::vector<landmarks::PanoramicLandmark>& built) {
+    for (const auto& landmark : built) {
       const auto points = std::count_if(landmark.keypoints.begin(), landmark.keypoints.end(),
                                         [](const auto& keypoint) { return keypoint.has_point; });
       context_.log().info("landmark {}: {}, {} keypoints, {} of them triangulated", landmark.id,

@@ -151,6 +151,16 @@ TEST_F(LandmarkBuilderComponent, WaitsUntilTheClockIsFound) {
   EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(*landmarks_[0])) * 1e-9, 100.3 + 0.2 * x, 1e-3);
 }
 
+TEST_F(LandmarkBuilderComponent, PublishesAtTheEndWhatWaitsForTheClock) {
+  load({{"rule.wait_for_clock_s", "60"}});
+  publish_mounting();
+  drive();
+  EXPECT_THAT(landmarks_, IsEmpty());
+  EXPECT_THAT(harness_.container().run(), IsEmpty());
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  EXPECT_TRUE(landmarks_[0]->is_junction());
+}
+
 TEST_F(LandmarkBuilderComponent, BuildsOnIfTheClockIsSetBack) {
   load({{"rule.first_m", "4"}});
   publish_mounting();

@@ -86,6 +86,7 @@ class Container::Implementation final : public node_services::ControlledContaine
   void drain();
   bool queues_are_empty();
   void fail_source(const std::string& what);
+  void publish_what_waits();
   std::vector<std::string> end_components();
   void end(Context::State& state);
   void finalize(std::uint64_t id);

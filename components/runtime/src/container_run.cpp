@@ -40,6 +40,7 @@ std::vector<std::string> Container::Implementation::run() {
   }
   running_ = false;
   stop_housekeeping();  // nothing is restarted from now on: it would have no end
+  publish_what_waits();
   std::vector<std::string> problems = source_problems_;
   for (auto& problem : end_components()) problems.push_back(std::move(problem));
   const std::lock_guard change(change_mutex_);
@@ -51,6 +52,25 @@ std::vector<std::string> Container::Implementation::run() {
       problems.push_back(entry->context->name() + " stopped by an error, see the log");
   }
   return problems;
+}
+
+/// Lets components publish what they held back, while the others still receive it.
+void Container::Implementation::publish_what_waits() {
+  bool is_any = false;
+  {
+    const std::lock_guard change(change_mutex_);
+    for (const auto& entry : entries_) {
+      Context::State& state = entry->context->state();
+      if (!state.last_port || !state.active) continue;
+      state.main_worker().push(*state.last_port, {.stamp_ns = state.timer_stamp_ns()});
+      is_any = true;
+    }
+  }
+  if (options_.replay) {
+    run_until_quiet();
+  } else if (is_any) {
+    drain();
+  }
 }
 
 /// Lets components finish their results, such as a bag; failures are problems of the run.

@@ -245,6 +245,11 @@ void Context::take_parameters(std::function<std::function<void()>(ParameterReade
   state_->parameter_takers.push_back(std::move(take));
 }
 
+void Context::before_end(std::function<void()> callback) {
+  state_->last_port =
+      &state_->main_worker().add_port("end", 1, true, [callback = std::move(callback)](Task&) { callback(); });
+}
+
 void Context::on_end(std::function<void()> callback) { state_->end = std::move(callback); }
 
 void Context::every(std::chrono::nanoseconds period, std::function<void()> callback) {

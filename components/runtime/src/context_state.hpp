@@ -100,6 +100,7 @@ struct Context::State {
   bool gives_way = false;
   std::uint64_t restarts = 0;  // number of restarts
   Source* source = nullptr;
+  Port* last_port = nullptr;  // takes a task after all messages; nullptr: nothing is held back
   std::function<void()> end;  // nullptr: nothing to finish
   std::function<DiagnosticValues()> diagnose = [] { return DiagnosticValues{}; };
   std::atomic<bool> active = true;      // receives messages

@@ -254,6 +254,39 @@ TEST(Container, HasComponentsFinishWhatTheyMadeAndCountsWhatFails) {
   EXPECT_EQ(ended, 2);
 }
 
+/// Publishes one more image after all messages.
+struct HoldingBack : Component {
+  explicit HoldingBack(Context& context) : output(context.output(topics::kPanorama)) {
+    context.before_end([this] { output.publish(image_at(7)); });
+  }
+  Output<Image> output;
+};
+
+TEST(Container, DeliversWhatComponentsHeldBackBeforeAnyOfThemEnds) {
+  for (const bool replay : {true, false}) {
+    for (const bool receives_first : {true, false}) {  // components end in the order in which they were added
+      Container container({.replay = replay});
+      std::vector<std::int64_t> seen;
+      const auto add_sink = [&] {
+        container.add(named("sink"), [&](Context& context) {
+          context.on_end([&] { seen.push_back(-1); });
+          return std::make_unique<Sink>(context, topics::kPanorama, [&](const std::shared_ptr<const Image>& image) {
+            seen.push_back(stamp_of(*image));
+          });
+        });
+      };
+      if (receives_first) add_sink();
+      container.add(named("holding_back"), [](Context& context) { return std::make_unique<HoldingBack>(context); });
+      if (!receives_first) add_sink();
+      container.add(named("player"), [](Context& context) {
+        return std::make_unique<Player>(context, topics::kPanorama, std::vector<std::int64_t>{5});
+      });
+      EXPECT_THAT(container.run(), testing::IsEmpty());
+      EXPECT_THAT(seen, ElementsAre(5, 7, -1)) << replay << receives_first;
+    }
+  }
+}
+
 TEST(Container, KnowsWhetherItWasStoppedBeforeAllWasPlayed) {
   constexpr std::int64_t kHour_ns = 3'600'000'000'000;
   for (const bool replay : {true, false}) {

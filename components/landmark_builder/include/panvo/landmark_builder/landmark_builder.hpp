@@ -74,6 +74,9 @@ class LandmarkBuilder {
   /// added to the map with its next id. Panoramas rejected by landmarks::find_fault must not be passed.
   std::vector<landmarks::PanoramicLandmark> step(const PosedPanorama& panorama, landmarks::MapReplica& map);
 
+  /// At the end of the path: builds the landmarks that still wait for the clock, as after `wait_for_clock_s`.
+  std::vector<landmarks::PanoramicLandmark> finish(landmarks::MapReplica& map);
+
   /// The panoramas so far were taken at other times: replaces the poses of those that are kept for later landmarks, by
   /// stamp, and forgets panoramas without one.
   using PoseOf = std::function<std::optional<Eigen::Isometry3d>(std::int64_t stamp_ns)>;
@@ -109,6 +112,8 @@ class LandmarkBuilder {
   };
 
   void keep(const PosedPanorama& panorama);
+  void build_waiting(landmarks::MapReplica& map, std::vector<landmarks::PanoramicLandmark>& built);
+  bool is_taken(const Kept& chosen, const landmarks::MapReplica& map) const;
   bool has_waited(const Waiting& landmark, std::int64_t now_ns) const;
   bool is_due(const landmarks::MapReplica& map, double travelled_m) const;
   const Kept& nearest_to_stamp(std::int64_t stamp_ns) const;

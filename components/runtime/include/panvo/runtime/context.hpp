@@ -111,6 +111,11 @@ class Context {
     }));
   }
 
+  /// Calls `callback()` at the end of the run on the component's message thread, after all messages, to publish what
+  /// waited for later ones: the other components still receive it. Their on_end() comes afterwards. Not called for a
+  /// component that is unloaded earlier.
+  void before_end(std::function<void()> callback);
+
   /// Calls `callback()` at the end of the run, when no other callback of the component is running, to finish its
   /// results. An exception counts as a problem of the run and affects the exit status. Not called for a component that
   /// is unloaded earlier.
