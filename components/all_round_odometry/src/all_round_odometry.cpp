@@ -12,8 +12,9 @@
 namespace panvo::all_round_odometry {
 namespace {
 
-constexpr double kHistory_s = 6.0;  // longer than a panorama serves as reference
-constexpr double kMaxGap_s = 0.5;   // between two stereo poses: a vehicle may turn within a longer one
+// Longer than a panorama serves as reference, by a clock that may be off to both sides.
+constexpr double kHistory_s = 6.0 + 2.0 * vision::ClockSearch::kFarthest_s;
+constexpr double kMaxGap_s = 0.5;  // between two stereo poses: a vehicle may turn within a longer one
 // Share of the points that agree with the stereo odometry: it is usually above 0.8. Fewer contradict it, if clearly more
 // agree on another motion.
 constexpr double kContradicted = 0.6, kClearly = 0.25;
@@ -191,7 +192,7 @@ bool AllRoundOdometry::is_contradicted(const PanoramaPoints& panorama, const Eig
   if (!seen || surprise(seen->before_from_now, interval_s) > surprise(step, interval_s)) return false;
   // Panoramas of another time show another motion in a bend, but hardly another speed.
   const double by_m = seen->before_from_now.translation().norm() - step.translation().norm();
-  const double usual_m_s = kAcceleration * vision::ClockSearch::kFarthest_s;
+  const double usual_m_s = kAcceleration * vision::ClockSearch::kUsual_s;
   if (is_clock_doubtful_ && std::abs(by_m) < usual_m_s * interval_s) return false;
   return motion_.agreeing_share(panorama, seen->before_from_now).value_or(0.0) > *share + kClearly;
 }
@@ -234,7 +235,8 @@ void AllRoundOdometry::measure(const PanoramaPoints& panorama, std::int64_t befo
   if (!last_ || last_->stamp_ns != before_ns) return;
   const double interval_s = seconds(before_ns, panorama.stamp_ns);
   const auto step = motion_.measure(panorama, vision::se3_exp(twist_ * interval_s));
-  if (!step) return;
+  // Distances that were learned at other times fit few points.
+  if (!step || (is_clock_doubtful_ && step->agreeing_share < kContradicted)) return;
   if (!blind_) blind_ = Blind{last_->odometry, {}, 0.0};
   blind_->scale_variance = step->scale_variance;
   advance(step->before_from_now, step->covariance);

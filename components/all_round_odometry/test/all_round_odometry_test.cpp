@@ -153,6 +153,19 @@ TEST_F(Drive, FindsHowLateThePanoramasAreStamped) {
   expect_increasing_stamps();
 }
 
+TEST_F(Drive, IsNotSureOfPanoramasOfAnUnknownTime) {
+  late_ns_ = 3'000'000'000;
+  go(1, 60, Stereo::kGood);
+  for (const AllRoundPose& pose : poses_) ASSERT_FALSE(pose.agreeing_share) << "no other motion, but another time";
+  const std::size_t before = poses_.size();
+  go(61, 80, Stereo::kBlind);
+  ASSERT_GT(poses_.size(), before);
+  for (std::size_t i = before; i < poses_.size(); ++i) {
+    EXPECT_TRUE(!poses_[i].is_reliable || error_m(poses_[i]) < 1.0) << panorama_of(poses_[i]);
+  }
+  expect_increasing_stamps();
+}
+
 TEST_F(Drive, BelievesNoMotionOfAnotherTimeWhenTheClockIsSetOnTheWay) {
   go(1, 40, Stereo::kGood);
   late_ns_ = 200'000'000;

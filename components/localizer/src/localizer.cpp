@@ -143,6 +143,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
   clock_search_ = {};
+  early_.clear();
   clock_doubt_.forget();
   is_clock_doubtful_ = false;
   clock_found_ns_ = INT64_MIN;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "panvo/localizer/soundness.hpp"
 #include "panvo/vision/angle.hpp"
@@ -18,17 +19,25 @@ constexpr double kClockCaution = 9.0;  // odometry sometimes errs by more than s
 constexpr double kNotableClock_s = 0.1;  // a vehicle moves half a metre in that time
 constexpr double kStraight = 0.02;       // rad/s: another time makes no difference
 constexpr double kAgree = 2.0;           // standard deviations: turns at another time
+constexpr std::size_t kMaxEarly = 100;   // reference panoramas
 constexpr double kOtherClock = 2.0;      // standard deviations: the filter follows smaller differences
 
 }  // namespace
 
 AzimuthUse Localizer::add(const AzimuthMeasurement& received) {
+  if (fault_of_angle(received.change_rad, received.variance_rad2)) return AzimuthUse::kNotUsed;
+  search_clock(unwrapped(received));
+  const AzimuthUse used = use(received);
+  if (!is_clock_known()) keep_early(received);
+  return used;
+}
+
+/// Fuses a turn by the present offset of the clock.
+AzimuthUse Localizer::use(const AzimuthMeasurement& received) {
   const std::int64_t from_ns = in_odometry_time(received.from_ns);
   const std::int64_t to_ns = in_odometry_time(received.to_ns);
-  if (fault_of_angle(received.change_rad, received.variance_rad2)) return AzimuthUse::kNotUsed;
-  const AzimuthMeasurement azimuth = unwrapped(received);
-  search_clock(azimuth);
   if (!chain_.turn(from_ns, to_ns)) return AzimuthUse::kNotUsed;
+  const AzimuthMeasurement azimuth = unwrapped(received);
   const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
   take_reference(azimuth.from_ns);
   const auto turn = chain_.turn(from_ns, to_ns);
@@ -146,16 +155,46 @@ void Localizer::search_clock(const AzimuthMeasurement& azimuth) {
   }
 }
 
+/// A turn replaces the shorter ones against the same reference panorama.
+void Localizer::keep_early(const AzimuthMeasurement& azimuth) {
+  if (!early_.empty() && early_.back().from_ns == azimuth.from_ns) early_.pop_back();
+  early_.push_back(azimuth);
+  if (early_.size() > kMaxEarly) early_.pop_front();
+}
+
+/// Turns from before the clock was known were fused with odometry of another time: undoes that, and fuses them again.
+void Localizer::use_early_again() {
+  const auto early = std::exchange(early_, {});
+  if (early.empty()) return;
+  const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
+  // They were of their stamps, as far as the filter had not followed a small offset.
+  const std::int64_t first_ns = std::min(early.front().from_ns, in_odometry_time(early.front().from_ns));
+  chain_.undo_turns(first_ns - vision::to_ns(parameters_.clock_sigma_s));
+  turn_error_.forget();
+  lean_.forget();
+  mounts_.forget_stamps();
+  turn_seen_.reset();
+  const double undone_rad = vision::wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
+  pending_yaw_correction_rad_ += undone_rad;
+  for (const auto& azimuth : early) use(azimuth);
+  graph_.refresh(chain_, INT64_MIN);
+}
+
 /// What panoramas have shown so far, since the clock was proven last, belongs to other times.
 void Localizer::set_clock(double ahead_s, std::int64_t panorama_stamp_ns) {
   clock_ = ClockOffset(vision::ClockSearch::kSigma_s, ahead_s);
   check_.forget();
   chain_.revert();
-  clock_found_ns_ = chain_.latest().pose.stamp_ns;
   clock_doubt_.forget();
   is_clock_doubtful_ = false;
   last_from_ns_.reset();
-  graph_.set_clock(chain_, clock_.estimate_ns(), clock_proven_ns_);
+  const std::int64_t proven_ns = clock_proven_ns_;
+  if (early_.empty()) {
+    clock_found_ns_ = chain_.latest().pose.stamp_ns;
+  } else {
+    use_early_again();
+  }
+  graph_.set_clock(chain_, clock_.estimate_ns(), proven_ns);
   clock_proven_ns_ = panorama_stamp_ns;
   graph_.solve();
   latest_ = localized(chain_.latest());

@@ -208,6 +208,19 @@ void OdometryBuffer::correct_turns(const TurnErrorChange& learned) {
   compose_from(1);
 }
 
+void OdometryBuffer::undo_turns(std::int64_t from_ns) {
+  const std::size_t first = std::max<std::size_t>(first_after(from_ns), 1);
+  for (std::size_t i = first; i < entries_.size(); ++i) {
+    Step& step = entries_[i].step;
+    step.motion = entries_[i - 1].raw.odom_from_base.inverse() * entries_[i].raw.odom_from_base;
+    step.covariance.row(vision::kYaw) /= std::sqrt(step.odometry_weight);
+    step.covariance.col(vision::kYaw) /= std::sqrt(step.odometry_weight);
+    step.odometry_weight = 1.0;
+    entries_[i].marked = step;
+  }
+  compose_from(first);
+}
+
 void OdometryBuffer::allow(std::int64_t from_ns, std::int64_t to_ns, double way_variance_m2, double yaw_variance_rad2) {
   const std::size_t first = first_after(from_ns);
   for (std::size_t i = std::max<std::size_t>(first, 1); i < entries_.size(); ++i) {

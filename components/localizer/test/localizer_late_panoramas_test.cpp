@@ -88,6 +88,20 @@ TEST(LocalizerWithLatePanoramas, KnowsThePositionAheadWithOneClock) {
   EXPECT_LT(road.sigma_ahead_m(), 0.05);
 }
 
+TEST(LocalizerWithLatePanoramas, FusesTheTurnsFromBeforeTheirClockWasKnownAgain) {
+  for (const double ahead_s : {0.3, 1.5, -1.5}) {
+    Winding vehicle;
+    vehicle.step_variance = 5e-6;  // so that the compass counts
+    vehicle.drive(0, 500, ahead_s);
+    ASSERT_TRUE(vehicle.localizer.is_clock_known()) << ahead_s;
+    EXPECT_NEAR(vehicle.localizer.panorama_clock().estimate_s(), ahead_s, 0.01);
+    const auto& here = vehicle.localizer.latest();
+    EXPECT_NEAR(yaw_of(here.map_from_base.linear()), Winding::yaw(Winding::time_s(499)), 0.002) << ahead_s;
+    EXPECT_LT((here.map_from_base.translation() - Winding::at(Winding::time_s(499)).translation()).norm(), 0.02)
+        << "the path so far, too: " << ahead_s;
+  }
+}
+
 TEST(LocalizerWithLatePanoramas, MakesLandmarksWhosePositionsMayBeOffAlongTheRoad) {
   Localizer localizer({});
   for (int frame = 0; frame <= 50; ++frame) {

@@ -168,6 +168,24 @@ OdometryBuffer winding(double scale, double lean_rad_m) {
   return chain;
 }
 
+TEST(OdometryBuffer, UndoesTheTurnsOfACompassButNotWhatElseIsKnownOfAStretch) {
+  auto chain = straight({1e-4, 1e-4, 1e-4, 1e-4});
+  chain.apply_yaw_correction(0, kEach_ns, 0.1, 0.5);
+  auto expected = chain;
+  chain.apply_yaw_correction(kEach_ns, 4 * kEach_ns, 0.2, 0.25);
+  chain.correct_turns({.scale = 0.0, .lean_rad_m = 0.1});
+  for (auto* each : {&chain, &expected}) each->allow(2 * kEach_ns, 3 * kEach_ns, 0.04, 0.0);
+  chain.undo_turns(kEach_ns);
+  expected.correct_turns({.scale = 0.0, .lean_rad_m = 0.1});
+  EXPECT_NEAR(chain.turn(0, kEach_ns)->change_rad, expected.turn(0, kEach_ns)->change_rad, 1e-12) << "before";
+  EXPECT_NEAR(chain.turn(kEach_ns, 4 * kEach_ns)->change_rad, 0.0, 1e-12);
+  EXPECT_NEAR(chain.turn(0, 4 * kEach_ns)->variance_rad2, expected.turn(0, 4 * kEach_ns)->variance_rad2, 1e-12);
+  EXPECT_NEAR(chain.latest().pose.covariance(1, 1), expected.latest().pose.covariance(1, 1), 1e-3);
+  EXPECT_GT(chain.latest().pose.covariance(1, 1), 0.04) << "what a stretch was doubted for stays";
+  chain.revert();
+  EXPECT_NEAR(chain.turn(kEach_ns, 4 * kEach_ns)->change_rad, 0.0, 1e-12) << "there is no return to the compass";
+}
+
 TEST(OdometryBuffer, TellsWhatSystematicErrorsOfTheTurnsDoToPositionAndHeading) {
   const std::int64_t from_ns = 100 * kEach_ns, to_ns = 470 * kEach_ns + kEach_ns / 3;
   const auto exact = winding(0.0, 0.0);

@@ -36,7 +36,7 @@ struct Winding {
           vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw(t) + (extra_rad ? extra_rad(t) : 0.0)));
       odometry.covariance = vision::compose_covariance(before.odom_from_base, before.covariance,
                                                        before.odom_from_base.inverse() * odometry.odom_from_base,
-                                                       4e-8 * vision::Matrix6d::Identity());
+                                                       step_variance * vision::Matrix6d::Identity());
       localizer.add(odometry);
       if (i % 5 != 0 || i < 40) continue;
       const double taken = t - kLate_s;
@@ -46,7 +46,8 @@ struct Winding {
   }
 
   Localizer localizer{{}};
-  OdometryPose odometry;  // last
+  double step_variance = 4e-8;  // of the odometry
+  OdometryPose odometry;        // last
   std::vector<AzimuthUse> uses;
 };
 

@@ -10,7 +10,7 @@
 namespace panvo::vision {
 namespace {
 
-constexpr std::size_t kMaxPending = 64;
+constexpr std::size_t kMaxPending = 256;
 constexpr double kKept = 0.995;                 // of the costs per turn: about 40 s of panoramas at 5 Hz
 constexpr double kMaxCost = 9.0;                // per turn: a wrong one decides nothing
 constexpr double kClear = 60.0;                 // excess of a cost that excludes a candidate: seven turns or more
@@ -23,12 +23,33 @@ constexpr std::int64_t kSoon_ns = 100'000'000;  // of turn that the reference se
 }  // namespace
 
 void ClockSearch::add(std::int64_t from_ns, std::int64_t to_ns, const Turn& turn) {
-  pending_.push_back({from_ns, to_ns, turn});
-  if (pending_.size() > kMaxPending) pending_.pop_front();
+  for (Row* row : {&usual_, &far_}) row->add({from_ns, to_ns, turn});
 }
 
 std::optional<double> ClockSearch::find(std::int64_t latest_ns, const Reference& reference) {
-  while (!pending_.empty() && pending_.front().to_ns + to_ns(kFarthest_s) <= latest_ns) {
+  auto found = usual_.find(latest_ns, reference);
+  if (!found) found = far_.find(latest_ns, reference);
+  if (!found) return std::nullopt;
+  usual_.forget_costs();
+  far_.forget_costs();
+  has_found_ = true;
+  return found;
+}
+
+void ClockSearch::forget_turns() {
+  for (Row* row : {&usual_, &far_}) row->forget();
+}
+
+ClockSearch::Row::Row(double farthest_s)
+    : farthest_s_(farthest_s), cost_(static_cast<std::size_t>(2 * std::lround(farthest_s / kStep_s) + 1)) {}
+
+void ClockSearch::Row::add(const Seen& seen) {
+  pending_.push_back(seen);
+  if (pending_.size() > kMaxPending) pending_.pop_front();
+}
+
+std::optional<double> ClockSearch::Row::find(std::int64_t latest_ns, const Reference& reference) {
+  while (!pending_.empty() && pending_.front().to_ns + to_ns(farthest_s_) <= latest_ns) {
     compare(pending_.front(), reference);
     pending_.pop_front();
   }
@@ -38,14 +59,17 @@ std::optional<double> ClockSearch::find(std::int64_t latest_ns, const Reference&
   const double before = cost_[*found - 1], at = cost_[*found], after = cost_[*found + 1];
   const double bend = before - 2.0 * at + after;
   const double vertex = bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
-  cost_ = {};
-  has_found_ = true;
   return offset_s(static_cast<double>(*found) + vertex);
 }
 
-void ClockSearch::compare(const Pending& seen, const Reference& reference) {
-  std::array<Turn, kCandidates> expected;
-  for (std::size_t i = 0; i < kCandidates; ++i) {
+void ClockSearch::Row::forget() {
+  pending_.clear();
+  forget_costs();
+}
+
+void ClockSearch::Row::compare(const Seen& seen, const Reference& reference) {
+  std::vector<Turn> expected(cost_.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
     const std::int64_t by_ns = to_ns(offset_s(static_cast<double>(i)));
     const auto turn = reference(seen.from_ns - by_ns, seen.to_ns - by_ns);
     if (!turn) return;
@@ -53,21 +77,22 @@ void ClockSearch::compare(const Pending& seen, const Reference& reference) {
   }
   const double unsure_rad2 =
       seen.turn.variance_rad2 + kLeast_rad * kLeast_rad + std::pow(kScale * seen.turn.change_rad, 2);
-  for (std::size_t i = 0; i < kCandidates; ++i) {
+  for (std::size_t i = 0; i < expected.size(); ++i) {
     const double deviation = wrapped(seen.turn.change_rad - expected[i].change_rad);
     // The true offset lies anywhere between the candidates.
     const double slope =
-        wrapped(expected[std::min(i + 1, kCandidates - 1)].change_rad - expected[i > 0 ? i - 1 : 0].change_rad) / 2.0;
+        wrapped(expected[std::min(i + 1, expected.size() - 1)].change_rad - expected[i > 0 ? i - 1 : 0].change_rad) /
+        2.0;
     const double variance = unsure_rad2 + expected[i].variance_rad2 + slope * slope / 12.0;
     cost_[i] = kKept * cost_[i] + std::min(deviation * deviation / variance, kMaxCost);
   }
 }
 
 /// The candidate that excludes all others but its neighbours.
-std::optional<std::size_t> ClockSearch::best() const {
+std::optional<std::size_t> ClockSearch::Row::best() const {
   const auto least = static_cast<std::size_t>(std::ranges::min_element(cost_) - cost_.begin());
-  if (least == 0 || least == kCandidates - 1) return std::nullopt;
-  for (std::size_t i = 0; i < kCandidates; ++i) {
+  if (least == 0 || least == cost_.size() - 1) return std::nullopt;
+  for (std::size_t i = 0; i < cost_.size(); ++i) {
     const std::size_t apart = i > least ? i - least : least - i;
     if (apart > kNear && cost_[i] < cost_[least] + kClear) return std::nullopt;
   }
@@ -88,8 +113,9 @@ bool ClockDoubt::add(std::int64_t from_ns, std::int64_t to_ns, double change_rad
         missing_ns > 0 ? recent->change_rad * static_cast<double>(missing_ns) / static_cast<double>(kSoon_ns) : 0.0;
     return std::abs(wrapped(turn.change_rad - measured->change_rad - missing_rad)) < turn.within_rad;
   };
-  for (std::size_t i = 0; i < ClockSearch::kCandidates; ++i) {
-    const std::int64_t by_ns = vision::to_ns(ClockSearch::offset_s(static_cast<double>(i)));
+  constexpr int kSide = static_cast<int>(ClockSearch::kUsual_s / ClockSearch::kStep_s + 0.5);
+  for (int i = -kSide; i <= kSide; ++i) {
+    const std::int64_t by_ns = vision::to_ns(i * ClockSearch::kStep_s);
     const bool explains_all = std::ranges::all_of(contradictions_, [&](const Contradiction& turn) {
       return is_explained(turn, turn.from_ns - by_ns, turn.to_ns - by_ns) ||
              (turn.from_ns <= agreed_ns_ && is_explained(turn, turn.from_ns - known_ahead_ns, turn.to_ns - by_ns));

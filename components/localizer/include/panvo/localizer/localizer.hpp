@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -203,6 +204,9 @@ class Localizer {
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   LandmarkSighting with_uncertain_mount(const LandmarkSighting& sighting) const;
   AzimuthMeasurement unwrapped(AzimuthMeasurement azimuth) const;
+  AzimuthUse use(const AzimuthMeasurement& received);
+  void keep_early(const AzimuthMeasurement& azimuth);
+  void use_early_again();
   void search_clock(const AzimuthMeasurement& azimuth);
   void set_clock(double ahead_s, std::int64_t panorama_stamp_ns);
   void agree(std::int64_t panorama_stamp_ns, double disagreement_rad, double rate_change_rad_s, double sigma_rad);
@@ -224,6 +228,7 @@ class Localizer {
   ClockOffset clock_;
   vision::ClockSearch clock_search_;
   vision::ClockDoubt clock_doubt_;
+  std::deque<AzimuthMeasurement> early_;      // before the clock was known: the longest against each reference panorama
   bool is_clock_doubtful_ = false;            // it may have been stepped
   std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
   std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times

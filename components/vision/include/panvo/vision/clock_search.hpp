@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace panvo::vision {
 
@@ -21,13 +22,10 @@ class ClockSearch {
   /// Turn by the reference sensor between two times of its clock; nullopt if it did not measure all of it.
   using Reference = std::function<std::optional<Turn>(std::int64_t from_ns, std::int64_t to_ns)>;
 
-  static constexpr double kFarthest_s = 0.6;  ///< candidates reach that far to both sides
-  static constexpr double kSigma_s = 0.02;    ///< standard deviation of what is found
-  static constexpr std::size_t kSide = 30, kCandidates = 2 * kSide + 1;
-
-  static double offset_s(double candidate) {
-    return (candidate - static_cast<double>(kSide)) * kFarthest_s / static_cast<double>(kSide);
-  }
+  static constexpr double kStep_s = 0.02;  ///< from candidate to candidate
+  /// To both sides: of most cameras, which are found sooner, and of slow streams.
+  static constexpr double kUsual_s = 0.6, kFarthest_s = 2.0;
+  static constexpr double kSigma_s = 0.02;  ///< standard deviation of what is found
 
   /// A turn by the other sensor, with stamps of its clock.
   void add(std::int64_t from_ns, std::int64_t to_ns, const Turn& turn);
@@ -37,24 +35,37 @@ class ClockSearch {
   std::optional<double> find(std::int64_t latest_ns, const Reference& reference);
 
   /// The clock may have been set: turns so far no longer count.
-  void forget_turns() {
-    pending_.clear();
-    cost_ = {};
-  }
+  void forget_turns();
 
   /// Whether an offset was found so far, large or not.
   bool has_found() const noexcept { return has_found_; }
 
  private:
-  struct Pending {
+  struct Seen {
     std::int64_t from_ns, to_ns;
     Turn turn;
   };
-  void compare(const Pending& seen, const Reference& reference);
-  std::optional<std::size_t> best() const;
 
-  std::deque<Pending> pending_;
-  std::array<double, kCandidates> cost_{};  // squared deviations, in variances
+  /// Candidates up to the same offset to both sides.
+  class Row {
+   public:
+    explicit Row(double farthest_s);
+    void add(const Seen& seen);
+    std::optional<double> find(std::int64_t latest_ns, const Reference& reference);
+    void forget();
+    void forget_costs() { std::ranges::fill(cost_, 0.0); }
+
+   private:
+    void compare(const Seen& seen, const Reference& reference);
+    std::optional<std::size_t> best() const;
+    double offset_s(double candidate) const { return candidate * kStep_s - farthest_s_; }
+
+    double farthest_s_;
+    std::vector<double> cost_;  // of each candidate: squared deviations, in variances
+    std::deque<Seen> pending_;
+  };
+
+  Row usual_{kUsual_s}, far_{kFarthest_s};
   bool has_found_ = false;
 };
 
