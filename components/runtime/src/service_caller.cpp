@@ -69,25 +69,34 @@ ComponentCaller::ComponentCaller(ServiceDescription service, const ServiceDirect
 }
 
 void ComponentCaller::call(interfaces::Bytes request, milliseconds limit, Answer answer) {
-  const auto reply = std::make_shared<Reply>([inbox = inbox_, answer = std::move(answer),
+  const auto reply = std::make_shared<Reply>([inbox = inbox_, call = inbox_->add(std::move(answer)),
                                               stamp_ns = current_stamp_ns()](std::optional<interfaces::Bytes> bytes) {
-    inbox->put(answer, std::move(bytes), stamp_ns);
+    inbox->put(call, std::move(bytes), stamp_ns);
   });
   if (!directory_.call(service_, request, reply) && remote_) remote_->call(std::move(request), limit, reply);
 }
 
 void ComponentCaller::close() {
+  std::map<std::uint64_t, Answer> unanswered;  // destroyed without the lock
   {
     const std::lock_guard lock(inbox_->mutex);
     inbox_->worker = nullptr;
+    unanswered.swap(inbox_->waiting);
   }
   remote_.reset();
 }
 
-void ComponentCaller::Inbox::put(const Answer& answer, std::optional<interfaces::Bytes> bytes, std::int64_t stamp_ns) {
+std::uint64_t ComponentCaller::Inbox::add(Answer answer) {
   const std::lock_guard lock(mutex);
-  if (!worker) return;
-  std::function<void()> task = [answer, bytes = std::move(bytes)] { answer(bytes); };
+  if (worker) waiting.emplace(++last_call, std::move(answer));
+  return last_call;
+}
+
+void ComponentCaller::Inbox::put(std::uint64_t call, std::optional<interfaces::Bytes> bytes, std::int64_t stamp_ns) {
+  const std::lock_guard lock(mutex);
+  auto found = waiting.extract(call);
+  if (!found) return;  // closed
+  std::function<void()> task = [answer = std::move(found.mapped()), bytes = std::move(bytes)] { answer(bytes); };
   worker->push(*port, {.item = std::move(task), .stamp_ns = stamp_ns});
 }
 

@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -53,13 +55,17 @@ class ComponentCaller final : public ServiceCaller {
   void close();
 
  private:
-  /// Receives answers while the component's worker exists.
+  /// Receives answers while the component's worker exists. It alone holds the component's functions: a call may still
+  /// wait in another component when this one's plugin is unloaded.
   struct Inbox {
     std::mutex mutex;
     Worker* worker = nullptr;
     Port* port = nullptr;
+    std::uint64_t last_call = 0;
+    std::map<std::uint64_t, Answer> waiting{};  // by number of the call
 
-    void put(const Answer& answer, std::optional<interfaces::Bytes> bytes, std::int64_t stamp_ns);
+    std::uint64_t add(Answer answer);
+    void put(std::uint64_t call, std::optional<interfaces::Bytes> bytes, std::int64_t stamp_ns);
   };
 
   const ServiceDescription service_;

@@ -193,5 +193,39 @@ TEST(ServicesOfComponentsLive, AnswerOnTheThreadOfTheirComponent) {
   EXPECT_NE(server->thread, asked_on.get_future().get());
 }
 
+/// Asks once, with an answer that holds something of the component.
+struct Holder : Component {
+  Holder(Context& context, std::shared_ptr<int> something) : client(context.client(kEcho)) {
+    context.every(std::chrono::milliseconds(1), [this, something = std::move(something)] {
+      if (std::exchange(is_asked, true)) return;
+      client.call(GetParameters_Request(), [something](const auto&) {});
+    });
+  }
+  Client<GetParameters_Request, GetParameters_Response> client;
+  bool is_asked = false;
+};
+
+TEST(ServicesOfComponentsLive, ThatAreBusyHoldNothingOfAnUnloadedClient) {
+  std::promise<void> asked, answered;
+  Container container({});
+  container.add(named("server"), [&](Context& context) {
+    context.serve(kEcho, [&](const GetParameters_Request&) {
+      asked.set_value();
+      answered.get_future().wait();
+      return GetParameters_Response();
+    });
+    return std::make_unique<Component>();
+  });
+  auto something = std::make_shared<int>();
+  const std::weak_ptr<int> held = something;
+  container.add(named("client"), [&](Context& context) { return std::make_unique<Holder>(context, something); });
+  container.start();
+  asked.get_future().wait();
+  ASSERT_TRUE(container.unload("client"));
+  something.reset();
+  EXPECT_TRUE(held.expired()) << "its destructor may be in a plugin that is gone";
+  answered.set_value();
+}
+
 }  // namespace
 }  // namespace panvo::runtime
