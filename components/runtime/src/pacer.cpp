@@ -93,12 +93,16 @@ std::optional<StampRange> Pacer::range_of_sources() const {
 }
 
 bool Pacer::seek(std::int64_t stamp_ns) {
-  const std::lock_guard lock(sources_mutex_);
-  const auto range = range_of_sources();
-  if (!range) return false;
-  const std::int64_t to_ns = std::clamp(stamp_ns, range->first_ns, range->last_ns);
-  for (Source* source : sources_) {
-    if (source->range()) source->seek(to_ns);
+  const std::lock_guard one_at_a_time(seeking_mutex_);
+  std::int64_t to_ns = stamp_ns;
+  {
+    const std::lock_guard lock(sources_mutex_);
+    const auto range = range_of_sources();
+    if (!range) return false;
+    to_ns = std::clamp(stamp_ns, range->first_ns, range->last_ns);
+    for (Source* source : sources_) {
+      if (source->range()) source->seek(to_ns);
+    }
   }
   move_to(to_ns);
   return true;

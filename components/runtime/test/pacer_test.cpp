@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
 #include <limits>
 
 namespace panvo::runtime {
@@ -109,6 +110,22 @@ TEST(Pacer, TellsOfEachChangeOnce) {
   EXPECT_EQ(moves, 1);
   EXPECT_EQ(pacer.state().stamp_ns, 7 * kSecond);
   EXPECT_EQ(pacer.state().version, before + 2);
+}
+
+TEST(Pacer, TellsItsRangeToOtherThreadsWhileItTellsOfAMove) {
+  MovableSource source({{100, 200}});
+  Pacer pacer;
+  pacer.add(source);
+  std::future<std::optional<StampRange>> range;
+  bool is_told = false;
+  pacer.on_change(
+      [&] {
+        range = std::async(std::launch::async, [&] { return pacer.range(); });
+        is_told = range.wait_for(std::chrono::seconds(5)) == std::future_status::ready;
+      },
+      [] {});
+  pacer.seek(150);
+  EXPECT_TRUE(is_told) << "a lock that seek() holds: with those of the listener, a deadlock";
 }
 
 TEST(Pacer, KnowsTheStampThatIsReached) {
