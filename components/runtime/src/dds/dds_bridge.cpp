@@ -41,8 +41,11 @@ class DdsBridge final : public Bridge {
     });
   }
 
-  // Open endpoints keep their participant; no discovery callbacks run after this.
-  ~DdsBridge() override { notifier_->stop(); }
+  // Open endpoints keep their participant; no callback of the notifier runs after this.
+  ~DdsBridge() override {
+    notifier_->stop();
+    graph_->close();
+  }
 
   std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic) override {
     return dds::open_writer(topic, dds::wire_topic(topic), participant(Role::kWrites), notifier_);

@@ -60,6 +60,13 @@ void NodeGraph::open_reader(const std::shared_ptr<Participant>& participant) {
       topic(kReaderQos), wire(), [this](const SamplePtr& sample) { take(sample); }, participant, notifier_);
 }
 
+void NodeGraph::close() {
+  reader_.reset();
+  std::unique_ptr<Writer> closed;  // without the lock, which a callback may wait for
+  const std::lock_guard lock(format_mutex_);
+  closed.swap(writer_);
+}
+
 void NodeGraph::set_nodes(std::vector<NodeDescription> nodes) {
   {
     const std::lock_guard lock(mutex_);

@@ -34,6 +34,10 @@ class NodeGraph : public std::enable_shared_from_this<NodeGraph> {
   void open_writer(const std::shared_ptr<Participant>& participant);
   void open_reader(const std::shared_ptr<Participant>& participant);
 
+  /// Ends both on this thread: one of Fast DDS that holds the graph during a callback cannot, as they wait for it. No
+  /// other method but those of Fast DDS's callbacks is called from then on.
+  void close();
+
   void set_nodes(std::vector<NodeDescription> nodes);
   /// To be called before the reader meets our writer.
   void nodes_reader(const rtps::GUID_t& reader, Discovery::NodesReader what);

@@ -5,7 +5,9 @@
 
 #include "bridge_fixture.hpp"
 #include "dds/fast_dds.hpp"
+#include "dds/node_graph.hpp"
 #include "dds/node_info.hpp"
+#include "dds/participant.hpp"
 #include "panvo/runtime/graph.hpp"
 #include "rmw_dds_common/msg/ParticipantEntitiesInfo.h"
 #include "service_messages.hpp"
@@ -175,6 +177,23 @@ TEST_F(Nodes, OfOneNameInTwoProcessesAreWarnedOf) {
   bridge->set_nodes({{"/", "twin", {}, {}, {}}});
   peer.ask("set_node twin /a /b");
   EXPECT_TRUE(is_warned_of("node /twin", "Remedy"));
+}
+
+TEST(NodeGraph, ThatIsClosedHasNoEndpointsThoughACallbackOfFastDdsStillHoldsIt) {
+  const auto notifier = std::make_shared<dds::Notifier>();
+  const auto endpoints = std::make_shared<dds::LocalEndpoints>();
+  const DdsSettings settings{.domain = test_domain(), .profiles = "", .name = "panvo_test"};
+  auto participant = std::make_shared<dds::Participant>(settings, dds::Hears::kMatching,
+                                                        std::make_shared<dds::Discovery>(notifier), endpoints);
+  const auto graph = std::make_shared<dds::NodeGraph>(notifier, endpoints, false);
+  graph->open_writer(participant);
+  graph->open_reader(participant);
+  const std::weak_ptr<dds::Participant> used = participant;
+  participant.reset();
+  EXPECT_FALSE(used.expired());
+  notifier->stop();
+  graph->close();
+  EXPECT_TRUE(used.expired()) << "ended on a thread of Fast DDS, an endpoint waits for that thread";
 }
 
 }  // namespace
