@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "playback.hpp"
 #include "protocol_error.hpp"
 #include "view.hpp"
 
@@ -80,12 +81,14 @@ void ClientSession::tell_time(std::int64_t time_ns) {
   sender_.send_binary(time_frame(time_ns));
 }
 
-void ClientSession::tell_playback(const PlaybackState& state, bool is_moved) {
+void ClientSession::tell_playback(bool is_moved) {
   const std::lock_guard lock(mutex_);
   if (!told_playback_) return;
-  if (!is_moved && state.status == told_playback_->status && state.speed == told_playback_->speed) return;
+  const auto state = state_of(view_.playback());  // under the lock: an older state must not be told after a newer one
+  if (!state) return;
+  if (!is_moved && state->status == told_playback_->status && state->speed == told_playback_->speed) return;
   told_playback_ = state;
-  sender_.send_binary(playback_frame(state, is_moved, ""));
+  sender_.send_binary(playback_frame(*state, is_moved, ""));
 }
 
 void ClientSession::tell_drops() {

@@ -47,7 +47,7 @@ class ClientSession final : public WebServer::Session {
   void tell_time(std::int64_t time_ns);
   /// To a client that controls the playback, on a change of its status or speed, or if the time was moved. Others may not
   /// know the message.
-  void tell_playback(const PlaybackState& state, bool is_moved);
+  void tell_playback(bool is_moved);
   /// A warning if messages were dropped since the last one, at most every 10 s.
   void tell_drops();
 

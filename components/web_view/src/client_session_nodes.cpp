@@ -120,15 +120,15 @@ void ClientSession::handle(const WatchConnectionGraph& request) {
 void ClientSession::handle(const ControlPlayback& request) {
   refuse_without_control();
   control(view_.playback(), request);
-  const auto state = state_of(view_.playback());
-  if (!state) throw ProtocolError("the player has ended");
   const bool is_moved = request.seek_ns.has_value();
   {
     const std::lock_guard lock(mutex_);
+    const auto state = state_of(view_.playback());
+    if (!state) throw ProtocolError("the player has ended");
     told_playback_ = state;
     sender_.send_binary(playback_frame(*state, is_moved, request.id));
   }
-  if (is_moved) view_.tell_playback(*state, this);
+  if (is_moved) view_.tell_playback(this);
 }
 
 bool ClientSession::wants_graph() const {

@@ -10,7 +10,6 @@
 #include "access.hpp"
 #include "client_session.hpp"
 #include "panvo/interfaces/node_topics.hpp"
-#include "playback.hpp"
 
 namespace panvo::web_view {
 namespace {
@@ -149,18 +148,17 @@ void View::tell_time() {
   const auto now_ns = time_ns();
   const bool is_new = now_ns && *now_ns != told_time_ns_;
   if (is_new) told_time_ns_ = *now_ns;
-  const auto state = state_of(context_.playback());
   const std::lock_guard lock(mutex_);
   for (ClientSession* session : sessions_) {
     if (is_new) session->tell_time(*now_ns);
-    if (state) session->tell_playback(*state, false);
+    session->tell_playback(false);
   }
 }
 
-void View::tell_playback(const PlaybackState& state, const ClientSession* by) {
+void View::tell_playback(const ClientSession* by) {
   const std::lock_guard lock(mutex_);
   for (ClientSession* session : sessions_) {
-    if (session != by) session->tell_playback(state, true);
+    if (session != by) session->tell_playback(true);
   }
 }
 

@@ -59,7 +59,7 @@ class View {
   /// Of the player of this process.
   runtime::Playback& playback() { return context_.playback(); }
   /// Tells the other clients that `by` has moved what is played.
-  void tell_playback(const PlaybackState& state, const ClientSession* by);
+  void tell_playback(const ClientSession* by);
   /// Identifies this run, so that a client that comes back knows whether ids still mean the same.
   const std::string& session() const { return session_; }
   const runtime::Logger& log() const { return context_.log(); }
