@@ -36,7 +36,7 @@ struct Camera {
   ArvGvFakeCamera* device = nullptr;
 };
 
-std::int64_t first_ns = 0;
+std::atomic<std::int64_t> first_ns = 0;  // set by the first of the cameras' threads
 
 std::int64_t device_time_ns(const Faults& faults, std::int64_t true_ns) {
   return true_ns + std::llround(faults.offset_s * 1e9) +
@@ -46,7 +46,8 @@ std::int64_t device_time_ns(const Faults& faults, std::int64_t true_ns) {
 void fill(ArvBuffer* buffer, void* user_data, guint32 /*exposure_us*/, guint32 /*gain*/, ArvPixelFormat /*format*/) {
   auto& camera = *static_cast<Camera*>(user_data);
   const auto true_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
-  if (first_ns == 0) first_ns = true_ns;
+  std::int64_t none = 0;
+  first_ns.compare_exchange_strong(none, true_ns);
   auto* bytes = static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, nullptr)));
   const auto pixel_bytes = ARV_PIXEL_FORMAT_BIT_PER_PIXEL(arv_buffer_get_image_pixel_format(buffer)) / 8;
   const std::size_t width = static_cast<std::size_t>(arv_buffer_get_image_width(buffer)) * pixel_bytes;
