@@ -131,8 +131,25 @@ TEST_F(PastStoredLandmarks, FixesInAFrameWithAKnownPlaceShowTheDirectionToo) {
   EXPECT_EQ(graph.since_known(at_metre(1100.0))(1, 1), 0.0);
 }
 
+/// Between an external pose after the vehicle was lifted, and the next stored landmark.
+TEST_F(PastStoredLandmarks, ScaleAndDirectionCountFromAnExternalPoseUntilTheNextOne) {
+  pass(1, 100.0);
+  pass(2, 200.0);
+  graph.cut(at_metre(1200.0).pose.stamp_ns);
+  graph.set_initial_pose({at_x(1200.0), variance(0.1)}, at_metre(1200.0));
+  ASSERT_TRUE(graph.solve());
+  EXPECT_NEAR(common_sigma_m(1220.0, 1), 20.0 * kDirectionSigma_rad, 1e-2);
+  EXPECT_NEAR(std::sqrt(graph.since_known(at_metre(1220.0))(1, 1)), 20.0 * kDirectionSigma_rad, 1e-2);
+  EXPECT_NEAR(common_sigma_m(1190.0, 1), 990.0 * std::hypot(kDirectionSigma_rad, kMapSigma), 0.1) << "before";
+  pass(3, 1240.0);
+  EXPECT_NEAR(common_sigma_m(1220.0, 1), std::hypot(kMapSigma, 20.0 * std::hypot(kDirectionSigma_rad, kMapSigma)), 1e-2)
+      << "errors of the stored map";
+}
+
 /// Nodes with equal stamps, and in no order of time.
 TEST_F(PastStoredLandmarks, TheCommonErrorsOfAllLandmarksAreThoseOfEachAlone) {
+  graph.cut(at_metre(71.0).pose.stamp_ns);
+  graph.set_initial_pose({at_x(80.0), variance(0.1)}, at_metre(80.0));
   for (const bool has_fixes : {false, true}) {
     if (has_fixes) graph.set_enu(at_x(0.0), variance(0.001));
     const std::uint32_t first = has_fixes ? 101 : 1;
@@ -206,6 +223,65 @@ TEST(LocalPoseGraph, PutsAJourneyWhoseStartWasGuessedWhereStoredLandmarksShowIt)
   const auto built = lap.localizer.landmarks().front();
   EXPECT_EQ(built.id, 1U);
   EXPECT_LT((built.map_from_base.translation() - lap.map_from_drive * lap.landmark.translation()).norm(), 0.5);
+}
+
+/// After a kilometre, the only thing that is known of a pose is what was said.
+TEST(LocalPoseGraph, CountsScaleAndDirectionFromAnExternalPose) {
+  constexpr double kScale = 0.01, kDirection_rad = 0.02, kSaid_m = 0.1;
+  LocalPoseGraph graph(0.01, 0.001, kScale, {});
+  graph.set_direction_sigma(kDirection_rad);
+  graph.start(at_metre(0.0));
+  const auto across_m = [&](double x_m) { return std::sqrt(graph.common_covariance(at_metre(x_m))(1, 1)); };
+  EXPECT_NEAR(across_m(1000.0), 1000.0 * kDirection_rad, 1e-9) << "from the start";
+  const PoseInMap said{at_x(1000.0), variance(kSaid_m)};
+  graph.place(Eigen::Isometry3d::Identity());
+  graph.set_initial_pose(said, at_metre(1000.0));
+  ASSERT_TRUE(graph.solve());
+  EXPECT_NEAR(across_m(1000.0), 0.0, 1e-3);
+  EXPECT_NEAR(across_m(1100.0), 100.0 * kDirection_rad, 1e-3);
+  EXPECT_NEAR(across_m(800.0), 200.0 * kDirection_rad, 1e-3) << "before";
+  EXPECT_NEAR(std::sqrt(graph.common_covariance(at_metre(1100.0))(0, 0)), 100.0 * kScale, 0.03);
+}
+
+TEST(LocalPoseGraph, CountsScaleAndDirectionFromTheStartBeforeTheVehicleWasLifted) {
+  constexpr double kDirection_rad = 0.02;
+  LocalPoseGraph graph(0.01, 0.001, 0.0, {});
+  graph.set_direction_sigma(kDirection_rad);
+  graph.start(at_metre(0.0));
+  graph.add_built(1, at_metre(900.0).pose.stamp_ns, at_metre(900.0));
+  graph.cut(at_metre(1000.0).pose.stamp_ns);
+  graph.set_initial_pose({at_x(1000.0), variance(0.1)}, at_metre(1000.0));
+  ASSERT_TRUE(graph.solve());
+  const auto across_m = [&](double x_m) { return std::sqrt(graph.common_covariance(at_metre(x_m))(1, 1)); };
+  EXPECT_NEAR(across_m(900.0), 900.0 * kDirection_rad, 1e-2);
+  EXPECT_NEAR(across_m(1100.0), 100.0 * kDirection_rad, 1e-2);
+  LandmarkSighting sighting;
+  sighting.stamp_ns = at_metre(1050.0).pose.stamp_ns;
+  sighting.landmark_id = 1;
+  sighting.landmark_from_base = at_x(150.0);
+  sighting.covariance = variance(0.02);
+  ASSERT_TRUE(graph.add_pass(sighting, at_metre(1050.0), 20.0));
+  ASSERT_TRUE(graph.solve());
+  EXPECT_NEAR(across_m(1100.0), 1100.0 * kDirection_rad, 0.1) << "of its landmark";
+}
+
+TEST(LocalPoseGraph, CountsTheErrorOfASingleStoredLandmarkOnce) {
+  constexpr double kStored_m = 0.5, kSighting_m = 0.02;
+  LocalPoseGraph graph(0.01, 0.001, 0.0, {});
+  graph.start(at_metre(0.0));
+  const auto see = [&](std::uint32_t id, double x_m) {
+    graph.add_known({id, 0, at_x(x_m), vision::Vector6d{0.25, 0.25, 0.25, 1e-6, 1e-6, 1e-6}.asDiagonal()});
+    LandmarkSighting sighting;
+    sighting.stamp_ns = at_metre(x_m).pose.stamp_ns;
+    sighting.landmark_id = id;
+    sighting.covariance = variance(kSighting_m);
+    graph.place(Eigen::Isometry3d::Identity());
+    EXPECT_TRUE(graph.add_pass(sighting, at_metre(x_m), 20.0));
+    EXPECT_TRUE(graph.solve());
+    return std::sqrt(graph.carried(at_metre(x_m)).covariance(1, 1) + graph.common_covariance(at_metre(x_m))(1, 1));
+  };
+  EXPECT_NEAR(see(1, 10.0), kStored_m, 0.01);
+  EXPECT_GT(see(2, 60.0), kStored_m) << "errors of one map are alike";
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ class LocalPoseGraph {
 
   /// Error common to all poses around one, which the graph cannot contain: that of the earlier journeys' map, as its
   /// landmark that was passed next has it, and since_known(); or else that of the scale and direction of this journey
-  /// relative to its start.
+  /// relative to its start or to an external pose. A single landmark of the earlier map is part of the graph.
   vision::Matrix6d common_covariance(const OdometrySample& at) const;
   /// The same for a landmark of this journey. Precondition: it was built.
   vision::Matrix6d common_covariance(std::uint32_t built_id) const {
@@ -115,8 +115,8 @@ class LocalPoseGraph {
   };
   /// Both, of each landmark of this journey alone, by id, in a time that hardly depends on the others.
   std::map<std::uint32_t, CommonErrors> common_errors() const;
-  /// What scale and direction of the odometry add on the way from where the earlier journeys' map was seen next; zero if
-  /// it was not seen.
+  /// What scale and direction of the odometry add on the way from where the earlier journeys' map was seen next, or the
+  /// pose was said; zero if neither.
   vision::Matrix6d since_known(const OdometrySample& at) const;
 
   /// Moves the whole journey, its start with it, to where it is assumed to have begun.
@@ -153,11 +153,13 @@ class LocalPoseGraph {
   };
 
   /// Nodes from which the errors common to all poses around one count: the last one before it, and those next to it that
-  /// saw the map of earlier journeys, or the direction. Null: none.
+  /// saw the map of earlier journeys, or the direction; or else, the external pose next to it. Null: none.
   struct From {
     const Node* anchor = nullptr;
     const Node* known_pass = nullptr;
     const Node* shown = nullptr;
+    const Node* said = nullptr;
+    bool is_of_one_landmark = false;
   };
   class Path;
 
@@ -184,8 +186,14 @@ class LocalPoseGraph {
   const Node* next_on_way(const OdometrySample& at, Condition&& condition) const;
   PoseInMap reckoned(const OdometrySample& at) const;
   PoseInMap reckoned(const OdometrySample& at, const Node& from) const;
+  const Node* nearer(const OdometrySample& at, const Node* before, const Node* after) const;
+  From around(const OdometrySample& at) const;
+  bool counts_from_said(const OdometrySample& at, const From& from) const;
+  bool is_tied_over_cuts() const;
+  bool is_of_one_landmark() const;
   vision::Matrix6d common_covariance(const OdometrySample& at, const From& from) const;
-  static Eigen::Vector3d velocity_at(const Node* pass);
+  static Eigen::Vector3d velocity_at(const From& from);
+  vision::Matrix6d since(const Node& begin, const Eigen::Vector3d& position) const;
   vision::Matrix6d since_shown(const OdometrySample& at, const Node* from) const;
   /// `from`: solved_node()
   vision::Matrix6d since_solution(const OdometrySample& at, const Node* from) const;
