@@ -71,7 +71,7 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
 
 std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::finish(landmarks::MapReplica& map) {
   std::vector<landmarks::PanoramicLandmark> built;
-  while (!waiting_.empty()) build_waiting(map, built);
+  while (!waiting_.empty() && !kept_.empty()) build_waiting(map, built);
   return built;
 }
 

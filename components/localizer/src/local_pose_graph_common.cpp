@@ -76,12 +76,13 @@ LocalPoseGraph::From LocalPoseGraph::around(const OdometrySample& at) const {
   return from;
 }
 
-/// Whether nothing of an earlier map was seen on this part of the way, between the cuts, on which a pose was said.
+/// Whether nothing of an earlier map was seen, nor satellites received in it, on this part of the way, between the cuts, on
+/// which a pose was said.
 bool LocalPoseGraph::counts_from_said(const OdometrySample& at, const From& from) const {
   const auto is_here = [&](const Node* node) {
     return node != nullptr && !is_cut(node->at.pose.stamp_ns, at.pose.stamp_ns);
   };
-  return is_here(from.said) && !is_here(from.known_pass);
+  return is_here(from.said) && !is_here(from.known_pass) && !is_here(from.shown);
 }
 
 /// Whether a landmark of this journey was seen on both sides of a cut: then an external pose of one side is not all that

@@ -75,7 +75,10 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
       chain_.empty() ? vision::Matrix6d(vision::Matrix6d::Zero())
                      : dead_reckoning_.step(vision::seconds(chain_.latest().pose.stamp_ns, odometry.stamp_ns),
                                             odometry.is_reliable);
-  if (odometry.lean_sigma_rad_per_m > 0.0) turn_error_.expect_lean(odometry.lean_sigma_rad_per_m);
+  if (odometry.lean_sigma_rad_per_m > 0.0) {
+    turn_error_.expect_lean(odometry.lean_sigma_rad_per_m);
+    if (early_) early_->turn_error.expect_lean(odometry.lean_sigma_rad_per_m);
+  }
   const Eigen::Isometry3d step = last_raw_.inverse() * odometry.odom_from_base;
   const double turn_error_rad = turn_error_.error_rad(yaw_of(step.linear()), step.translation().norm());
   const double turn_variance_rad2 = chain_.empty() ? 0.0 : turn_error_.advance(step.translation().norm());
@@ -143,7 +146,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
   clock_search_ = {};
-  early_.clear();
+  early_.reset();
   clock_doubt_.forget();
   is_clock_doubtful_ = false;
   clock_found_ns_ = INT64_MIN;

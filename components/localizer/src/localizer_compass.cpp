@@ -27,9 +27,8 @@ constexpr double kOtherClock = 2.0;      // standard deviations: the filter foll
 AzimuthUse Localizer::add(const AzimuthMeasurement& received) {
   if (fault_of_angle(received.change_rad, received.variance_rad2)) return AzimuthUse::kNotUsed;
   search_clock(unwrapped(received));
-  const AzimuthUse used = use(received);
   if (!is_clock_known()) keep_early(received);
-  return used;
+  return use(received);
 }
 
 /// Fuses a turn by the present offset of the clock.
@@ -94,7 +93,7 @@ AzimuthUse Localizer::use(const AzimuthMeasurement& received) {
   }
   azimuth_ns_ = to_ns;
   pending_yaw_correction_rad_ += vision::wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
-  graph_.refresh(chain_, std::min(from_ns, unsure_since_ns.value_or(from_ns)));
+  if (!is_using_again_) graph_.refresh(chain_, std::min(from_ns, unsure_since_ns.value_or(from_ns)));
   graph_.set_direction_sigma(check_.direction_sigma_rad());
   latest_ = localized(chain_.latest());
   if (wrong == Wrong::kPanoramas) return AzimuthUse::kDoubted;
@@ -155,33 +154,44 @@ void Localizer::search_clock(const AzimuthMeasurement& azimuth) {
   }
 }
 
-/// A turn replaces the shorter ones against the same reference panorama.
+/// A turn replaces the shorter ones against the same reference panorama. To be called before its use.
 void Localizer::keep_early(const AzimuthMeasurement& azimuth) {
-  if (!early_.empty() && early_.back().from_ns == azimuth.from_ns) early_.pop_back();
-  early_.push_back(azimuth);
-  if (early_.size() > kMaxEarly) early_.pop_front();
+  if (!early_) early_.emplace(Early{{}, turn_error_, check_.direction_offset()});
+  auto& turns = early_->turns;
+  if (!turns.empty() && turns.back().from_ns == azimuth.from_ns) turns.pop_back();
+  turns.push_back(azimuth);
+  if (turns.size() > kMaxEarly) turns.pop_front();
 }
 
-/// Turns from before the clock was known were fused with odometry of another time: undoes that, and fuses them again.
-void Localizer::use_early_again() {
-  const auto early = std::exchange(early_, {});
-  if (early.empty()) return;
+/// Turns from before the clock was known were fused with odometry of other times, by offsets up to `fused_ahead_ns`:
+/// undoes that, and fuses them again.
+void Localizer::use_early_again(std::int64_t fused_ahead_ns) {
+  const Early early = *std::exchange(early_, std::nullopt);
+  const ClockOffset found = clock_;
   const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
-  // They were of their stamps, as far as the filter had not followed a small offset.
-  const std::int64_t first_ns = std::min(early.front().from_ns, in_odometry_time(early.front().from_ns));
-  chain_.undo_turns(first_ns - vision::to_ns(parameters_.clock_sigma_s));
-  turn_error_.forget();
+  const std::int64_t from_ns = early.turns.front().from_ns;
+  const std::int64_t first_ns = std::min({from_ns, from_ns - fused_ahead_ns, in_odometry_time(from_ns)});
+  // What was learned meanwhile was also applied to the path before.
+  chain_.correct_turns({early.turn_error.scale() - turn_error_.scale(),
+                        early.turn_error.lean_rad_m() - turn_error_.lean_rad_m(), turn_error_.errors().lean_memory_m});
+  chain_.undo_turns(first_ns - vision::to_ns(parameters_.clock_sigma_s), early.turn_error);
+  turn_error_ = early.turn_error;
+  check_.forget();
+  check_.set_direction_offset(early.direction_offset);
   lean_.forget();
   mounts_.forget_stamps();
   turn_seen_.reset();
-  const double undone_rad = vision::wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
-  pending_yaw_correction_rad_ += undone_rad;
-  for (const auto& azimuth : early) use(azimuth);
+  pending_yaw_correction_rad_ += vision::wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
+  is_using_again_ = true;
+  for (const auto& azimuth : early.turns) use(azimuth);
+  is_using_again_ = false;
+  clock_ = found;  // the same turns do not tell more of it
   graph_.refresh(chain_, INT64_MIN);
 }
 
 /// What panoramas have shown so far, since the clock was proven last, belongs to other times.
 void Localizer::set_clock(double ahead_s, std::int64_t panorama_stamp_ns) {
+  const std::int64_t fused_ahead_ns = clock_.estimate_ns();
   clock_ = ClockOffset(vision::ClockSearch::kSigma_s, ahead_s);
   check_.forget();
   chain_.revert();
@@ -189,10 +199,10 @@ void Localizer::set_clock(double ahead_s, std::int64_t panorama_stamp_ns) {
   is_clock_doubtful_ = false;
   last_from_ns_.reset();
   const std::int64_t proven_ns = clock_proven_ns_;
-  if (early_.empty()) {
-    clock_found_ns_ = chain_.latest().pose.stamp_ns;
+  if (early_) {
+    use_early_again(fused_ahead_ns);
   } else {
-    use_early_again();
+    clock_found_ns_ = chain_.latest().pose.stamp_ns;
   }
   graph_.set_clock(chain_, clock_.estimate_ns(), proven_ns);
   clock_proven_ns_ = panorama_stamp_ns;
@@ -207,8 +217,10 @@ void Localizer::take_reference(std::int64_t panorama_stamp_ns) {
   if (turn_seen_) {
     chain_.correct_turns(turn_error_.add(turn_seen_->disagreement_rad, turn_seen_->turn_rad, turn_seen_->way_m,
                                          turn_seen_->variance_rad2));
-    graph_.refresh(chain_, INT64_MIN);
-    if (graph_.size() > 1) graph_.solve();
+    if (!is_using_again_) {
+      graph_.refresh(chain_, INT64_MIN);
+      if (graph_.size() > 1) graph_.solve();
+    }
   }
   chain_.mark(in_odometry_time(panorama_stamp_ns));
   turn_seen_.reset();
@@ -233,7 +245,7 @@ void Localizer::straighten(const YawBiasDetector::Bias& lean) {
   const double wrong_rad = std::sqrt(lean.excess * odometry_variance);
   if (leaning && leaning->variance_rad2 < wrong_rad * wrong_rad) inflate(from_ns, to_ns, wrong_rad);
   fuse(from_ns, to_ns, compass_rad, compass_variance);
-  graph_.refresh(chain_, from_ns);
+  if (!is_using_again_) graph_.refresh(chain_, from_ns);
 }
 
 /// Raises the variance of the odometry's turn to the square of what it disagrees by.

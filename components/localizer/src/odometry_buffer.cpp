@@ -208,11 +208,12 @@ void OdometryBuffer::correct_turns(const TurnErrorChange& learned) {
   compose_from(1);
 }
 
-void OdometryBuffer::undo_turns(std::int64_t from_ns) {
+void OdometryBuffer::undo_turns(std::int64_t from_ns, const TurnErrorFilter& known) {
   const std::size_t first = std::max<std::size_t>(first_after(from_ns), 1);
   for (std::size_t i = first; i < entries_.size(); ++i) {
     Step& step = entries_[i].step;
-    step.motion = entries_[i - 1].raw.odom_from_base.inverse() * entries_[i].raw.odom_from_base;
+    const Eigen::Isometry3d moved = entries_[i - 1].raw.odom_from_base.inverse() * entries_[i].raw.odom_from_base;
+    step.motion = turned_more(moved, -known.error_rad(yaw_of(moved.linear()), moved.translation().norm()));
     step.covariance.row(vision::kYaw) /= std::sqrt(step.odometry_weight);
     step.covariance.col(vision::kYaw) /= std::sqrt(step.odometry_weight);
     step.odometry_weight = 1.0;

@@ -18,8 +18,7 @@ constexpr double kTurnOutlier = 4.0 * 4.0;  // squared standard deviations
 }  // namespace
 
 TurnErrorFilter::TurnErrorFilter(double scale_sigma, double lean_sigma_rad_m)
-    : scale_sigma_(scale_sigma),
-      lean_sigma_rad_m_(lean_sigma_rad_m),
+    : lean_sigma_rad_m_(lean_sigma_rad_m),
       covariance_(Eigen::Vector2d(scale_sigma * scale_sigma, lean_sigma_rad_m * lean_sigma_rad_m).asDiagonal()) {}
 
 void TurnErrorFilter::expect_lean(double sigma_rad_m) {
@@ -27,8 +26,6 @@ void TurnErrorFilter::expect_lean(double sigma_rad_m) {
   lean_sigma_rad_m_ = sigma_rad_m;
   covariance_(1, 1) = sigma_rad_m * sigma_rad_m;
 }
-
-void TurnErrorFilter::forget() { *this = TurnErrorFilter(scale_sigma_, lean_sigma_rad_m_); }
 
 TurnErrorChange TurnErrorFilter::add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2) {
   if (std::abs(turn_rad) < kMinTurn_rad && way_m < kMinWay_m) return {};

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "panvo/localizer/localizer.hpp"
 #include "winding_drive.hpp"
@@ -100,6 +103,36 @@ TEST(LocalizerWithLatePanoramas, FusesTheTurnsFromBeforeTheirClockWasKnownAgain)
     EXPECT_LT((here.map_from_base.translation() - Winding::at(Winding::time_s(499)).translation()).norm(), 0.02)
         << "the path so far, too: " << ahead_s;
   }
+}
+
+/// Odometry turns too much, and several panoramas have one reference. The panoramic camera starts later.
+TEST(LocalizerWithLatePanoramas, LearnsOfTheOdometryAsIfTheyWereNotLate) {
+  for (const int first : {40, 600}) {
+    const auto after_drive = [&](double ahead_s) {
+      Winding vehicle;
+      vehicle.step_variance = 1e-6;
+      vehicle.panoramas_per_reference = 4;
+      vehicle.first = first;
+      vehicle.drive(0, 1400, ahead_s, [](double t) { return 0.03 * Winding::yaw(t) + 0.001 * (t - 100.0); });
+      return vehicle.localizer.latest();
+    };
+    const auto late = after_drive(0.3), punctual = after_drive(0.0);
+    EXPECT_NEAR(yaw_of(late.map_from_base.linear()), yaw_of(punctual.map_from_base.linear()), 0.001) << first;
+    EXPECT_LT((late.map_from_base.translation() - punctual.map_from_base.translation()).norm(), 0.03) << first;
+    EXPECT_NEAR(std::sqrt(late.covariance(5, 5) / punctual.covariance(5, 5)), 1.0, 0.05) << first;
+  }
+}
+
+/// The latency of a stream changes by less than it is.
+TEST(LocalizerWithLatePanoramas, DoubtsTheClockWhenALargeOffsetChanges) {
+  Winding vehicle;
+  vehicle.drive(0, 500, 1.5);
+  ASSERT_TRUE(vehicle.localizer.is_clock_known());
+  const std::size_t before = vehicle.uses.size();
+  vehicle.drive(500, 1000, 1.2);
+  const auto after = std::span(vehicle.uses).subspan(before);
+  EXPECT_LE(std::ranges::count(after, AzimuthUse::kContradicted), 1) << "odometry is right";
+  EXPECT_NEAR(vehicle.localizer.panorama_clock().estimate_s(), 1.2, 0.01);
 }
 
 TEST(LocalizerWithLatePanoramas, MakesLandmarksWhosePositionsMayBeOffAlongTheRoad) {

@@ -38,17 +38,20 @@ struct Winding {
                                                        before.odom_from_base.inverse() * odometry.odom_from_base,
                                                        step_variance * vision::Matrix6d::Identity());
       localizer.add(odometry);
-      if (i % 5 != 0 || i < 40) continue;
-      const double taken = t - kLate_s;
+      if (i % 5 != 0 || i < first) continue;
+      const double taken = t - kLate_s, since = 0.2 * (1 + (i / 5) % panoramas_per_reference);
       uses.push_back(localizer.add(
-          AzimuthMeasurement{ns(taken - 0.2 + ahead_s), ns(taken + ahead_s), yaw(taken) - yaw(taken - 0.2), 1e-6}));
+          AzimuthMeasurement{ns(taken - since + ahead_s), ns(taken + ahead_s), yaw(taken) - yaw(taken - since), 1e-6}));
     }
   }
 
-  Localizer localizer{{}};
-  double step_variance = 4e-8;  // of the odometry
-  OdometryPose odometry;        // last
-  std::vector<AzimuthUse> uses;
+  double step_variance = 4e-8;      // of the odometry
+  int panoramas_per_reference = 1;  // consecutive
+  int first = 40;                   // frame with a panorama
+
+  Localizer localizer{Parameters{}};
+  OdometryPose odometry{};  // last
+  std::vector<AzimuthUse> uses{};
 };
 
 }  // namespace panvo::localizer

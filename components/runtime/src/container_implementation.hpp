@@ -83,7 +83,7 @@ class Container::Implementation final : public node_services::ControlledContaine
   void replay(const std::vector<Source*>& sources);
   void run_live(const std::vector<Source*>& sources);
   void open_clock();
-  void drain();
+  void drain(std::chrono::seconds patience);
   bool queues_are_empty();
   void fail_source(const std::string& what);
   void publish_what_waits();

@@ -69,7 +69,7 @@ void Container::Implementation::publish_what_waits() {
   if (options_.replay) {
     run_until_quiet();
   } else if (is_any) {
-    drain();
+    drain(std::chrono::seconds(2));
   }
 }
 
@@ -178,7 +178,7 @@ void Container::Implementation::run_live(const std::vector<Source*>& sources) {
   while (!sources.empty() && !stop_requested_ && !runner_->wait(250)) on_progress(runner_->progress());
   was_interrupted_ = !sources.empty() && runner_->is_playing();
   runner_->stop();
-  drain();
+  drain(std::chrono::seconds(10));
   source_steps_ += runner_->steps();
   if (!sources.empty()) on_progress(runner_->progress());
 }
@@ -196,23 +196,22 @@ void Container::Implementation::open_clock() {
   tell_nodes();
 }
 
-/// Waits until queued messages are handled and sent messages acknowledged. Gives up after 10 s without progress, or
-/// after 10 s in total when stopped, as other processes may keep sending.
-void Container::Implementation::drain() {
+/// Waits until queued messages are handled and sent messages acknowledged. Gives up after so long without progress, or
+/// in total when stopped, as other processes may keep sending.
+void Container::Implementation::drain(std::chrono::seconds patience) {
   using std::chrono::steady_clock;
-  constexpr auto kPatience = std::chrono::seconds(10);
   std::unique_lock lock(stop_mutex_);
   std::int64_t before = host_.in_flight;
-  auto give_up = steady_clock::now() + kPatience;
+  auto give_up = steady_clock::now() + patience;
   while (host_.in_flight != 0 && steady_clock::now() < give_up) {
     stop_changed_.wait_for(lock, std::chrono::milliseconds(20));
-    if (host_.in_flight != before && !stop_requested_) give_up = steady_clock::now() + kPatience;
+    if (host_.in_flight != before && !stop_requested_) give_up = steady_clock::now() + patience;
     before = host_.in_flight;
   }
   lock.unlock();
   if (before != 0)
     log(LogLevel::kWarning, "container", fmt::format("{} messages were still waiting at the end", before));
-  if (!bus_.wait_for_acknowledgments(std::chrono::seconds(3))) {
+  if (!bus_.wait_for_acknowledgments(std::min(patience, std::chrono::seconds(3)))) {
     log(LogLevel::kWarning, "container", "another process has not acknowledged all messages");
   }
 }

@@ -115,7 +115,7 @@ bool ClockDoubt::add(std::int64_t from_ns, std::int64_t to_ns, double change_rad
   };
   constexpr int kSide = static_cast<int>(ClockSearch::kUsual_s / ClockSearch::kStep_s + 0.5);
   for (int i = -kSide; i <= kSide; ++i) {
-    const std::int64_t by_ns = vision::to_ns(i * ClockSearch::kStep_s);
+    const std::int64_t by_ns = known_ahead_ns + vision::to_ns(i * ClockSearch::kStep_s);
     const bool explains_all = std::ranges::all_of(contradictions_, [&](const Contradiction& turn) {
       return is_explained(turn, turn.from_ns - by_ns, turn.to_ns - by_ns) ||
              (turn.from_ns <= agreed_ns_ && is_explained(turn, turn.from_ns - known_ahead_ns, turn.to_ns - by_ns));

@@ -78,6 +78,8 @@ class CrossCheck {
   /// Of the two mounts, with what has lasted for some panoramas; nullopt while it is not measured.
   std::optional<MountDirection> mount_direction() const;
   const DirectionOffset& direction_offset() const noexcept { return direction_offset_; }
+  /// As it was before panoramas that are added again.
+  void set_direction_offset(const DirectionOffset& offset) { direction_offset_ = offset; }
 
  private:
   struct TurnAndWay {  // in the plane

@@ -182,6 +182,13 @@ class Localizer {
     std::optional<std::int64_t> cut_ns;            // odometry missed a motion at this time
   };
 
+  /// Turns from before the clock was known, the longest against each reference panorama, and what was known before them.
+  struct Early {
+    std::deque<AzimuthMeasurement> turns;
+    TurnErrorFilter turn_error;
+    DirectionOffset direction_offset;
+  };
+
   struct TurnSeen {  // by odometry and compass
     double disagreement_rad, turn_rad, way_m, variance_rad2;
   };
@@ -206,7 +213,7 @@ class Localizer {
   AzimuthMeasurement unwrapped(AzimuthMeasurement azimuth) const;
   AzimuthUse use(const AzimuthMeasurement& received);
   void keep_early(const AzimuthMeasurement& azimuth);
-  void use_early_again();
+  void use_early_again(std::int64_t fused_ahead_ns);
   void search_clock(const AzimuthMeasurement& azimuth);
   void set_clock(double ahead_s, std::int64_t panorama_stamp_ns);
   void agree(std::int64_t panorama_stamp_ns, double disagreement_rad, double rate_change_rad_s, double sigma_rad);
@@ -228,7 +235,6 @@ class Localizer {
   ClockOffset clock_;
   vision::ClockSearch clock_search_;
   vision::ClockDoubt clock_doubt_;
-  std::deque<AzimuthMeasurement> early_;      // before the clock was known: the longest against each reference panorama
   bool is_clock_doubtful_ = false;            // it may have been stepped
   std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
   std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times
@@ -237,6 +243,8 @@ class Localizer {
   CrossCheck check_;
   DeadReckoning dead_reckoning_;
   LocalPoseGraph graph_;
+  std::optional<Early> early_;
+  bool is_using_again_ = false;  // the turns of early_: the graph follows when all are fused
   ExtrinsicsMonitor mounting_;
   MountingHistory mounts_;
   std::map<std::uint32_t, vision::Vector6d> built_twists_;  // of the vehicle at its landmarks, in its axes

@@ -78,8 +78,9 @@ class OdometryBuffer {
   /// Corrects all turns, as far as no compass measured them, by what has become known of the odometry's errors.
   void correct_turns(const TurnErrorChange& learned);
 
-  /// Undoes all corrections of turns since a time: those by a compass, and those for what odometry turned too much.
-  void undo_turns(std::int64_t from_ns);
+  /// Undoes all corrections of turns since a time: those by a compass, and those for what odometry turned too much beyond
+  /// what was known of it then.
+  void undo_turns(std::int64_t from_ns, const TurnErrorFilter& known);
 
   /// Adds variance to a stretch, distributed over the steps by time: to both axes of the plane, and to the yaw.
   void allow(std::int64_t from_ns, std::int64_t to_ns, double way_variance_m2, double yaw_variance_rad2);

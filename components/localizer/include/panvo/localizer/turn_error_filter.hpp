@@ -28,9 +28,6 @@ class TurnErrorFilter {
   /// Replaces the prior standard deviation of the lean, before the first measurement only.
   void expect_lean(double sigma_rad_m);
 
-  /// Forgets what was learned, but not the priors.
-  void forget();
-
   /// `disagreement_rad`: turn by panoramas minus turn by odometry between the same two times, the latter corrected by
   /// error_rad(); `turn_rad`, `way_m`: by odometry; `variance_rad2`: of the disagreement of exact odometry.
   TurnErrorChange add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2);
@@ -58,7 +55,7 @@ class TurnErrorFilter {
   double lean_variance_after(double way_m) const;
   double heading_variance_after(double way_m) const;
 
-  double scale_sigma_, lean_sigma_rad_m_;
+  double lean_sigma_rad_m_;
   bool has_learned_ = false;
   double unlearned_m_ = 0.0;                         // way since the last measurement
   double unseen_m_ = 0.0;                            // way since the last turn that the compass measured

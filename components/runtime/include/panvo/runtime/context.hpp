@@ -111,9 +111,9 @@ class Context {
     }));
   }
 
-  /// Calls `callback()` at the end of the run on the component's message thread, after all messages, to publish what
-  /// waited for later ones: the other components still receive it. Their on_end() comes afterwards. Not called for a
-  /// component that is unloaded earlier.
+  /// Calls `callback()` at the end of the run on the component's message thread, after all messages of the run, to publish
+  /// what waited for later ones: the other components of the container still receive it, before any on_end(). Other
+  /// processes may have ended. Not called for a component that is unloaded earlier.
   void before_end(std::function<void()> callback);
 
   /// Calls `callback()` at the end of the run, when no other callback of the component is running, to finish its
