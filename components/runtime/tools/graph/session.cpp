@@ -48,16 +48,16 @@ Session::Session(const SessionOptions& options)
 }
 
 Graph Session::settled_graph() {
+  Graph graph = bridge_->graph();  // first: it makes the participant, which takes seconds on a busy machine
   const auto start = steady_clock::now();
   auto changed = start;
-  Graph graph = bridge_->graph();
   while (!is_stopped()) {
     const auto now = steady_clock::now();
-    if (now - start >= first_look(graph) && now - changed >= kQuiet && is_complete(graph)) break;
     if (now - start >= timeout_) {
       std::fprintf(stderr, "panvo: discovery has not settled: something may be missing (--timeout waits longer)\n");
       break;
     }
+    if (now - start >= first_look(graph) && now - changed >= kQuiet && is_complete(graph)) break;
     std::this_thread::sleep_for(kPollPeriod);
     Graph next = bridge_->graph();
     if (next.endpoints.size() != graph.endpoints.size() || next.nodes.size() != graph.nodes.size() ||
