@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -16,12 +17,17 @@ namespace panvo::runtime {
 class Rosout {
  public:
   void open(std::shared_ptr<UntypedOutput> output);
-  void close() { open(nullptr); }
+  /// Once this has returned, no thread publishes any more: the topic may go.
+  void close();
   void publish(LogLevel level, const std::string& component, const std::string& text, std::int64_t time_ns);
 
  private:
+  class Publishing;
+
   std::mutex mutex_;
+  std::condition_variable changed_;
   std::shared_ptr<UntypedOutput> output_;
+  int publishing_ = 0;  // threads
 };
 
 }  // namespace panvo::runtime
