@@ -24,14 +24,16 @@ constexpr std::uint32_t kMinShared = 1024;
 }  // namespace
 
 Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on_sample,
-               std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier)
+               std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier, Rate rate)
     : description_(topic),
       on_sample_(std::move(on_sample)),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
-      topic_(participant_->topic(wire)),
-      // Latched messages arrive all at once.
-      rate_limit_(participant_->limits().max_topic_rate_hz, static_cast<double>(topic.qos.depth)) {
+      topic_(participant_->topic(wire)) {
+  if (rate == Rate::kLimited) {
+    // Latched messages arrive all at once.
+    rate_limit_.emplace(participant_->limits().max_topic_rate_hz, static_cast<double>(topic.qos.depth));
+  }
   fdds::DataReaderQos qos = participant_->subscriber().get_default_datareader_qos();
   apply(topic, qos);
   const bool is_to_share = topic.type && participant_->max_shared(wire.type_name) > 0;
@@ -87,7 +89,7 @@ void Reader::deliver(Incoming incoming, const fdds::SampleInfo& info) {
                                        description_.name,
                                        1e-6 * static_cast<double>(participant_->limits().max_message_bytes)));
   }
-  if (!rate_limit_.take(clocks::monotonic_ns())) {
+  if (rate_limit_ && !rate_limit_->take(clocks::monotonic_ns())) {
     ++too_fast_;
     return notifier_->warn(
         fmt::format("topic {}: more than {:.6g} messages per second, some are dropped: see max_topic_rate_hz",

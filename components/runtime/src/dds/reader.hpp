@@ -5,9 +5,11 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "fast_dds.hpp"
 #include "notifier.hpp"
@@ -24,9 +26,14 @@ class Reader final : public BridgeReader, private fdds::DataReaderListener {
  public:
   using OnSample = std::function<void(SamplePtr)>;
 
+  enum class Rate : std::uint8_t {
+    kLimited,  ///< by Limits::max_topic_rate_hz
+    kAny       ///< for topics on which a lost message would never be made up for
+  };
+
   /// Throws ConfigError if Fast DDS refuses the topic. `wire` holds its wire names.
   Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on_sample,
-         std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier);
+         std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier, Rate rate = Rate::kLimited);
   ~Reader() override;
 
   std::size_t matched_writers() const override { return matched_writers_; }
@@ -51,7 +58,7 @@ class Reader final : public BridgeReader, private fdds::DataReaderListener {
 
   std::mutex delivery_mutex_;  // held during delivery of a sample
   bool closed_ = false;
-  RateLimit rate_limit_;
+  std::optional<RateLimit> rate_limit_;
   rtps::GUID_t last_writer_;
   Sample::Sender last_sender_;
 

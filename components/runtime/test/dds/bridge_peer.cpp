@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "dds/names.hpp"
+#include "dds/node_info.hpp"
 #include "late_client.hpp"
 #include "panvo/interfaces/message_type.hpp"
 #include "panvo/runtime/bridge.hpp"
@@ -66,6 +67,16 @@ class Peer {
       raw_readers_[name] = std::make_unique<RawReader>(
           domain_, kNodesTopic, std::string(type.dds_name), user_data,
           [this, name](const auto& bytes) { say("received " + name + " " + std::to_string(bytes.size())); });
+    } else if (verb == "open_nodes_writer") {
+      const auto& type = interfaces::message_type<rmw_dds_common::msg::ParticipantEntitiesInfo>();
+      raw_writers_[name] = std::make_unique<RawWriter>(domain_, kNodesTopic, std::string(type.dds_name),
+                                                       RawWriter::Offer{.transient_local = true});
+    } else if (verb == "write_nodes") {  // NODE TIMES
+      dds::NodeInfo info;
+      info.nodes.resize(1);
+      int times = 0;
+      words >> info.nodes[0].name >> times;
+      for (; times > 0; --times) raw_writers_.at(name)->write(dds::encode(info, dds::kGidSize));
     } else if (verb == "close_nodes_reader") {
       raw_readers_.erase(name);
     } else if (verb == "close_reader") {

@@ -136,6 +136,21 @@ TEST_F(Nodes, AreToldAnewWhenEndpointsCome) {
   EXPECT_TRUE(eventually([&] { return nodes_called("talker").at(0).writers.size() == 1; }));
 }
 
+TEST_F(Nodes, AreListedThoughTheirProcessTellsOfThemMoreOftenThanATopicMay) {
+  constexpr int kMoreThanABurst = 2000;
+  const auto careful =
+      make_dds_bridge({.domain = domain, .profiles = "", .name = "careful", .limits = {.max_topic_rate_hz = 1e-3}});
+  careful->graph();
+  peer.ask("open_nodes_writer robot");
+  ASSERT_TRUE(peer.matches("robot", 1));
+  peer.ask("write_nodes robot starting " + std::to_string(kMoreThanABurst));
+  peer.ask("write_nodes robot started 1");
+  EXPECT_TRUE(eventually([&] {
+    const auto nodes = careful->graph().nodes;
+    return nodes.size() == 1 && nodes[0].name == "started";
+  }));
+}
+
 TEST_F(Nodes, OfThisProcessAreSeenByAnother) {
   bridge->set_nodes({{"/robot", "tracker", {}, {}, {}}});
   EXPECT_TRUE(eventually([&] { return peer.ask("nodes") == "nodes /robot tracker 0 0"; }));
