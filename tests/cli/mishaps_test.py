@@ -159,6 +159,12 @@ class OptionsWithAnEqualsSign(Installed):
         self.assertIn("--rate 2", done.stdout)
         self.assertNotIn("--rate 1", done.stdout)
 
+    def test_of_tls_name_files_wherever_the_system_file_is(self):
+        write_program(self.programs / "panvo_run", 'echo "$@"')
+        done = self.ask("view", "--tls-certificate=cert.pem", "--tls-key", "keys/key.pem")
+        self.assertIn("open https://127.0.0.1:8765 in a browser, or wss://127.0.0.1:8765 in Foxglove", done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"tls_certificate:=/\S*/cert\.pem tls_key:=/\S*/keys/key\.pem")
+
 
 class Supervision(unittest.TestCase):
     def supervise(self, line, function="echo $BASHPID >{pid}; sleep 1000"):

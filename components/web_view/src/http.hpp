@@ -19,6 +19,7 @@ struct HttpRequest {
   std::string path;           ///< decoded, begins with a slash
   std::string host;           ///< header Host: what the client calls this server
   std::string if_none_match;  ///< header of this name: the version that the client has
+  bool is_secure = false;     ///< came by TLS
 };
 
 struct HttpResponse {

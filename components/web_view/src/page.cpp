@@ -44,8 +44,8 @@ void add_security(HttpResponse& response, const std::string& host) {
   response.headers.emplace_back("Cross-Origin-Resource-Policy", "same-origin");
 }
 
-HttpResponse explanation(const std::string& host) {
-  const std::string address = "ws://" + (is_plain_host(host) ? host : "HOST:PORT");
+HttpResponse explanation(const std::string& host, bool is_secure) {
+  const std::string address = std::string(is_secure ? "wss://" : "ws://") + (is_plain_host(host) ? host : "HOST:PORT");
   HttpResponse response{404, "text/html; charset=utf-8", {}, {}};
   response.body =
       "<!doctype html><html lang=\"en\"><meta name=\"viewport\" content=\"width=device-width\"><title>panvo</title>\n"
@@ -101,7 +101,7 @@ fs::path default_page_folder() {
 HttpResponse Page::get(const HttpRequest& request) const {
   HttpResponse response{404, "text/plain; charset=utf-8", "there is no such file\n", {}};
   if (folder_.empty()) {
-    if (request.path == "/") response = explanation(request.host);
+    if (request.path == "/") response = explanation(request.host, request.is_secure);
   } else if (const auto file = file_below(folder_, request.path)) {
     const std::string version = version_of(*file);
     if (request.if_none_match == version) {

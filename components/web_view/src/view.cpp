@@ -43,6 +43,7 @@ View::View(runtime::Context& context, Settings settings)
   listening.port = settings_.port;
   listening.threads = static_cast<int>(settings_.max_clients) + kSpareThreads;
   listening.cookie = cookie_name_;
+  listening.tls = settings_.tls;
   listening.subprotocols = {"foxglove.sdk.v1", "foxglove.websocket.v1"};
   server_ = std::make_unique<WebServer>(
       std::move(listening),
@@ -51,7 +52,9 @@ View::View(runtime::Context& context, Settings settings)
                              return std::make_unique<ClientSession>(*this, connection);
                            },
                            .get = [this](const Credentials& credentials,
-                                         const HttpRequest& request) { return get(credentials, request); }});
+                                         const HttpRequest& request) { return get(credentials, request); },
+                           .warn = [this](const std::string& kind,
+                                          const std::string& text) { log().warn_throttled(kind, "{}", text); }});
 }
 
 View::~View() = default;
@@ -69,7 +72,8 @@ HttpResponse View::get(const Credentials& credentials, const HttpRequest& reques
   auto response = page_.get(request);
   // Browsers do not repeat the token when they ask for the scripts of the page.
   if (!settings_.token.empty())
-    response.headers.emplace_back("Set-Cookie", cookie_name_ + '=' + cookie_ + "; Path=/; HttpOnly; SameSite=Strict");
+    response.headers.emplace_back("Set-Cookie", cookie_name_ + '=' + cookie_ + "; Path=/; HttpOnly; SameSite=Strict" +
+                                                    (settings_.tls.is_empty() ? "" : "; Secure"));
   return response;
 }
 

@@ -34,11 +34,12 @@ class View {
     bool allow_control = false;                ///< clients may publish, set parameters and call services
     std::size_t max_clients = 8;
     std::size_t queue_bytes = 32'000'000;  ///< waiting messages of each client
+    TlsFiles tls;                          ///< none: connections are not encrypted
     std::filesystem::path page;            ///< folder of the web page; empty: none
     std::filesystem::path assets;          ///< folder of package:// assets; empty: none
   };
 
-  /// Throws ServerError if it cannot listen.
+  /// Throws ServerError if it cannot listen, CertificateError.
   View(runtime::Context& context, Settings settings);
   ~View();
 

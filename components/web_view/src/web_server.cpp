@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "access.hpp"
+#include "tls_front.hpp"
 
 namespace panvo::web_view {
 namespace {
@@ -16,6 +17,8 @@ namespace {
 constexpr const char* kSendTimeout = "5000";  // ms without progress, after which a client counts as gone
 constexpr const char* kPingPeriod = "2000";   // ms of silence, after which a client is asked whether it is there
 constexpr std::size_t kMaxSecret = 1024;
+constexpr std::size_t kWaitingClients = 32;  // with TLS: those that no thread of civetweb serves yet
+constexpr const char* kOnlyRelayed = "this port is for the relayed connections of TLS only";
 
 std::string header_of(const mg_connection* connection, const char* name) {
   const char* const header = mg_get_header(connection, name);
@@ -75,7 +78,7 @@ void answer(mg_connection* connection, int status, const std::string& text) {
 
 /// A connection with its session.
 struct WebServer::Open {
-  explicit Open(mg_connection* handle) : connection(handle) {}
+  Open(mg_connection* handle, std::string address) : connection(handle, std::move(address)) {}
   Connection connection;
   std::unique_ptr<Session> session;  // destroyed before the connection, which it uses
 };
@@ -87,6 +90,10 @@ struct WebServer::Handlers {
     auto* const writable = const_cast<mg_connection*>(connection);  // for the answer
     try {
       const auto& self = *static_cast<const WebServer*>(server);
+      if (!self.address_of(connection)) {
+        answer(writable, 403, kOnlyRelayed);
+        return 1;
+      }
       if (!asks_for_one_of(connection, self.settings_.subprotocols)) {
         answer(writable, 400, "the WebSocket subprotocol is missing or not supported");
         return 1;
@@ -104,7 +111,7 @@ struct WebServer::Handlers {
   static void ready(mg_connection* connection, void* server) {
     try {
       const auto& self = *static_cast<const WebServer*>(server);
-      auto open = std::make_unique<Open>(connection);
+      auto open = std::make_unique<Open>(connection, self.address_of(connection).value_or("a client that has left"));
       open->session = self.callbacks_.open(open->connection);
       mg_set_user_connection_data(connection, open.release());
     } catch (const std::exception&) {  // without a session the first frame ends the connection
@@ -136,6 +143,10 @@ struct WebServer::Handlers {
   static int get(mg_connection* connection, void* server) {
     const auto& self = *static_cast<const WebServer*>(server);
     try {
+      if (!self.address_of(connection)) {
+        answer(connection, 403, kOnlyRelayed);
+        return 403;
+      }
       const auto* const info = mg_get_request_info(connection);
       const std::string_view method = info->request_method;
       if (method != "GET" && method != "HEAD") {
@@ -144,7 +155,8 @@ struct WebServer::Handlers {
       }
       const auto response =
           self.callbacks_.get(credentials_of(connection, self.settings_.cookie),
-                              {info->local_uri, header_of(connection, "Host"), header_of(connection, "If-None-Match")});
+                              {info->local_uri, header_of(connection, "Host"), header_of(connection, "If-None-Match"),
+                               !self.settings_.tls.is_empty()});
       answer(connection, response, method == "GET");
       return response.status;
     } catch (const std::exception& error) {
@@ -154,8 +166,9 @@ struct WebServer::Handlers {
   }
 };
 
-WebServer::Connection::Connection(mg_connection* connection)
+WebServer::Connection::Connection(mg_connection* connection, std::string address)
     : connection_(connection),
+      address_(std::move(address)),
       socket_(mg_get_request_info(connection)->remote_addr, mg_get_request_info(connection)->remote_port,
               mg_get_request_info(connection)->server_port) {}
 
@@ -170,11 +183,6 @@ bool WebServer::Connection::send_binary(std::span<const std::uint8_t> frame) {
 
 void WebServer::Connection::close() { socket_.shut_down(); }
 
-std::string WebServer::Connection::address() const {
-  const auto* const request = mg_get_request_info(connection_);
-  return std::string(request->remote_addr) + ":" + std::to_string(request->remote_port);
-}
-
 WebServer::WebServer(Settings settings, Callbacks callbacks)
     : settings_(std::move(settings)), callbacks_(std::move(callbacks)) {
   for (const auto& name : settings_.subprotocols) subprotocol_names_.push_back(name.c_str());
@@ -183,14 +191,25 @@ WebServer::WebServer(Settings settings, Callbacks callbacks)
   mg_init_library(MG_FEATURES_WEBSOCKET);
   try {
     listen();
+    if (!settings_.tls.is_empty()) {
+      front_ = std::make_unique<TlsFront>(
+          TlsFront::Settings{.host = settings_.host,
+                             .port = settings_.port,
+                             .files = settings_.tls,
+                             .inner_port = port_,
+                             .max_relays = static_cast<std::size_t>(settings_.threads) + kWaitingClients},
+          peers_, callbacks_.warn);
+      port_ = front_->port();
+    }
   } catch (...) {
-    mg_exit_library();
+    stop();
     throw;
   }
 }
 
 void WebServer::listen() {
-  const std::string address = settings_.host + ":" + std::to_string(settings_.port);
+  const std::string address =
+      settings_.tls.is_empty() ? settings_.host + ":" + std::to_string(settings_.port) : "127.0.0.1:0";
   const std::string threads = std::to_string(settings_.threads);
   const std::array<const char*, 15> options{"listening_ports",
                                             address.c_str(),
@@ -227,9 +246,20 @@ void WebServer::listen() {
   mg_set_request_handler(context_, "/", Handlers::get, this);
 }
 
-WebServer::~WebServer() {
-  mg_stop(context_);
+/// Who is at the other end: "192.168.1.7:43210". nullopt: with TLS, one that goes round it.
+std::optional<std::string> WebServer::address_of(const mg_connection* connection) const {
+  const auto* const request = mg_get_request_info(connection);
+  const std::string host = request->remote_addr;
+  if (settings_.tls.is_empty()) return host + ":" + std::to_string(request->remote_port);
+  return host == "127.0.0.1" ? peers_.find(request->remote_port) : std::nullopt;
+}
+
+void WebServer::stop() {
+  front_.reset();  // first: its connections then end, which threads of civetweb may wait for
+  if (context_) mg_stop(context_);
   mg_exit_library();
 }
+
+WebServer::~WebServer() { stop(); }
 
 }  // namespace panvo::web_view

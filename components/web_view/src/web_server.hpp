@@ -13,12 +13,16 @@
 
 #include "http.hpp"
 #include "peer_socket.hpp"
+#include "relayed_peers.hpp"
+#include "tls_files.hpp"
 
 struct mg_connection;
 struct mg_context;
 struct mg_websocket_subprotocols;
 
 namespace panvo::web_view {
+
+class TlsFront;
 
 /// Thrown if the server cannot start: the port is in use, the address does not exist.
 class ServerError : public std::runtime_error {
@@ -33,17 +37,18 @@ class WebServer {
   /// An open connection. Thread-safe.
   class Connection {
    public:
-    explicit Connection(mg_connection* connection);
+    Connection(mg_connection* connection, std::string address);
     /// Sends one message, waiting as long as the client reads. False if it read nothing for kSendTimeout, or is gone.
     bool send_text(std::string_view text);
     bool send_binary(std::span<const std::uint8_t> frame);
     /// Ends the connection soon; its Session is then destroyed.
     void close();
     /// "192.168.1.7:43210".
-    std::string address() const;
+    const std::string& address() const { return address_; }
 
    private:
     mg_connection* const connection_;
+    const std::string address_;
     PeerSocket socket_;
   };
 
@@ -61,6 +66,7 @@ class WebServer {
     int threads = 10;
     std::vector<std::string> subprotocols;  ///< a WebSocket client must ask for one of them
     std::string cookie;                     ///< name of the one that the server sets
+    TlsFiles tls;                           ///< none: connections are not encrypted
   };
   struct Refusal {
     int http_status;
@@ -71,9 +77,11 @@ class WebServer {
     std::function<std::optional<Refusal>(const Credentials&)> admit;
     std::function<std::unique_ptr<Session>(Connection&)> open;
     std::function<HttpResponse(const Credentials&, const HttpRequest&)> get;
+    /// A problem of TLS; `kind`: for those that may come often.
+    std::function<void(const std::string& kind, const std::string& text)> warn;
   };
 
-  /// Throws ServerError.
+  /// Throws ServerError, CertificateError.
   WebServer(Settings settings, Callbacks callbacks);
   /// Closes all connections and destroys their sessions.
   ~WebServer();
@@ -87,6 +95,8 @@ class WebServer {
   struct Open;
 
   void listen();
+  std::optional<std::string> address_of(const mg_connection* connection) const;
+  void stop();
 
   const Settings settings_;
   const Callbacks callbacks_;
@@ -94,6 +104,8 @@ class WebServer {
   std::unique_ptr<mg_websocket_subprotocols> subprotocols_;  // civetweb keeps the address
   mg_context* context_ = nullptr;
   int port_ = 0;
+  RelayedPeers peers_;               // of the front
+  std::unique_ptr<TlsFront> front_;  // with TLS: civetweb then listens on this machine only
 };
 
 }  // namespace panvo::web_view

@@ -23,6 +23,8 @@ struct Parameters {
   bool allow_control = false;
   int max_clients = 8;
   int queue_mb = 32;
+  std::string tls_certificate;
+  std::string tls_key;
   std::string page;
   std::string assets;
   std::vector<std::string> allowed_origins;
@@ -40,6 +42,9 @@ struct Parameters {
           "messages waiting for one client; beyond it large messages are dropped, then the client is closed", 1, 1000);
     field(&P::allowed_origins, "allowed_origins", "",
           "web pages that may connect without a token: https://HOST, *: any; those of this machine and Foxglove's may");
+    field.path(&P::tls_certificate, "tls_certificate",
+               "PEM file: encrypts connections, https:// and wss://; empty: no");
+    field.path(&P::tls_key, "tls_key", "PEM file of its private key, readable by its owner only");
     field.path(&P::assets, "assets", "folder of the files that viewers ask for as package://PACKAGE/FILE; empty: none");
     field.path(&P::page, "page", "folder of the web page; empty: the one that was built with panvo");
   }
@@ -62,20 +67,23 @@ class WebViewComponent final : public runtime::Component {
     settings.max_clients = static_cast<std::size_t>(parameters.max_clients);
     settings.queue_bytes = static_cast<std::size_t>(parameters.queue_mb) * 1'000'000;
     settings.allowed_origins = parameters.allowed_origins;
+    settings.tls = {parameters.tls_certificate, parameters.tls_key};
     settings.assets = parameters.assets;
     settings.page = parameters.page.empty() ? default_page_folder() : std::filesystem::path(parameters.page);
     try {
       view_ = std::make_unique<View>(context, settings);
     } catch (const ServerError& error) {
       throw runtime::ConfigError(context.name() + ": " + error.what() + "; set the parameter port or host");
+    } catch (const CertificateError& error) {
+      throw runtime::ConfigError(context.name() + ": " + error.what());
     }
     context.every(kRefreshPeriod, [this] { view_->refresh(); });
     context.every(kTimePeriod, [this] { view_->tell_time(); });
     context.on_diagnostics([this] { return view_->diagnostics(); });
     context.log().info(
-        "listening on ws://{0}:{1}: open http://{0}:{1} in a browser, or this address in Foxglove or "
+        "listening on ws{0}://{1}:{2}: open http{0}://{1}:{2} in a browser, or this address in Foxglove or "
         "Lichtblick as a Foxglove WebSocket",
-        parameters.host, view_->port());
+        settings.tls.is_empty() ? "" : "s", parameters.host, view_->port());
   }
 
  private:

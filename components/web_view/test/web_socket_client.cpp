@@ -11,8 +11,6 @@
 
 namespace panvo::web_view::test {
 
-namespace {
-
 int connected_socket(int port, int receive_buffer) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   const timeval patience{20, 0};
@@ -29,21 +27,50 @@ int connected_socket(int port, int receive_buffer) {
   return socket;
 }
 
+int port_of(int socket) {
+  sockaddr_in name{};
+  socklen_t size = sizeof name;
+  ::getsockname(socket, reinterpret_cast<sockaddr*>(&name), &size);
+  return ntohs(name.sin_port);
+}
+
+namespace {
+
+class PlainStream final : public ByteStream {
+ public:
+  explicit PlainStream(int socket) : socket_(socket) {}
+  ~PlainStream() override { ::close(socket_); }
+  PlainStream(const PlainStream&) = delete;
+  PlainStream& operator=(const PlainStream&) = delete;
+
+  int own_port() const override { return port_of(socket_); }
+  long send(std::span<const std::uint8_t> bytes) override {
+    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  }
+  long receive(std::span<std::uint8_t> bytes) override { return ::recv(socket_, bytes.data(), bytes.size(), 0); }
+
+ private:
+  const int socket_;
+};
+
 }  // namespace
 
-std::string http_answer(int port, const std::string& request) {
-  const int socket = connected_socket(port, 0);
+std::unique_ptr<ByteStream> plain_stream(int port, int receive_buffer) {
+  return std::make_unique<PlainStream>(connected_socket(port, receive_buffer));
+}
+
+std::string http_answer(int port, const std::string& request, const Connect& connect) {
+  const auto stream = connect(port, 0);
   std::string answer;
-  std::array<char, 4096> part{};
-  ::send(socket, request.data(), request.size(), MSG_NOSIGNAL);
-  for (ssize_t count = 0; (count = ::recv(socket, part.data(), part.size(), 0)) > 0;)
-    answer.append(part.data(), static_cast<std::size_t>(count));
-  ::close(socket);
+  std::array<std::uint8_t, 4096> part{};
+  stream->send({reinterpret_cast<const std::uint8_t*>(request.data()), request.size()});
+  for (long count = 0; (count = stream->receive(part)) > 0;)
+    answer.append(reinterpret_cast<const char*>(part.data()), static_cast<std::size_t>(count));
   return answer;
 }
 
 WebSocketClient::WebSocketClient(int port, const Request& request)
-    : socket_(connected_socket(port, request.receive_buffer)) {
+    : stream_(request.connect(port, request.receive_buffer)) {
   const std::string text = "GET " + request.path +
                            " HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                            "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
@@ -53,8 +80,6 @@ WebSocketClient::WebSocketClient(int port, const Request& request)
   while (!answer_.ends_with("\r\n\r\n") && receive_exactly(letter)) answer_ += static_cast<char>(letter[0]);
   if (answer_.starts_with("HTTP/1.1 ")) status_ = std::stoi(answer_.substr(9, 3));
 }
-
-WebSocketClient::~WebSocketClient() { ::close(socket_); }
 
 void WebSocketClient::send(std::uint8_t head, std::span<const std::uint8_t> data) {
   std::vector<std::uint8_t> frame{head};
@@ -74,7 +99,7 @@ void WebSocketClient::send(std::uint8_t head, std::span<const std::uint8_t> data
 
 void WebSocketClient::send_raw(std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
-    const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const long sent = stream_->send(bytes);
     if (sent <= 0) return;  // the server has closed the connection, which receive() will show
     bytes = bytes.subspan(static_cast<std::size_t>(sent));
   }
@@ -82,7 +107,7 @@ void WebSocketClient::send_raw(std::span<const std::uint8_t> bytes) {
 
 bool WebSocketClient::receive_exactly(std::span<std::uint8_t> bytes) {
   while (!bytes.empty()) {
-    const ssize_t count = ::recv(socket_, bytes.data(), bytes.size(), 0);
+    const long count = stream_->receive(bytes);
     if (count <= 0) return false;
     bytes = bytes.subspan(static_cast<std::size_t>(count));
   }

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,10 +13,29 @@
 
 namespace panvo::web_view::test {
 
-/// Sends an HTTP request to a port of this machine; the answer until the server ends the connection.
-std::string http_answer(int port, const std::string& request);
+/// A socket that is connected to a port of this machine and waits up to 20 s. `receive_buffer`: bytes; 0: default. Throws
+/// std::runtime_error.
+int connected_socket(int port, int receive_buffer = 0);
+/// Of this end of a socket.
+int port_of(int socket);
 
-/// A WebSocket client over a plain socket of this machine, so that tests can also send what no library sends.
+/// A connection to a port of this machine.
+class ByteStream {
+ public:
+  virtual ~ByteStream() = default;
+  virtual int own_port() const = 0;
+  /// How many bytes were sent or received; 0: the connection has ended; negative: it is broken, or nothing came for 20 s.
+  virtual long send(std::span<const std::uint8_t> bytes) = 0;
+  virtual long receive(std::span<std::uint8_t> bytes) = 0;
+};
+using Connect = std::function<std::unique_ptr<ByteStream>(int port, int receive_buffer)>;
+/// Without encryption.
+std::unique_ptr<ByteStream> plain_stream(int port, int receive_buffer);
+
+/// Sends an HTTP request to a port of this machine; the answer until the server ends the connection.
+std::string http_answer(int port, const std::string& request, const Connect& connect = plain_stream);
+
+/// A WebSocket client of a port of this machine, so that tests can also send what no library sends.
 class WebSocketClient {
  public:
   struct Frame {
@@ -26,15 +47,14 @@ class WebSocketClient {
     std::string path = "/";
     std::string headers = "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n";  ///< each with its line end
     int receive_buffer = 0;                                               ///< bytes of the socket; 0: default
+    Connect connect = plain_stream;
   };
 
   /// Connects and asks for the protocol; status() and answer() are the server's reply.
   explicit WebSocketClient(int port) : WebSocketClient(port, Request{}) {}
   WebSocketClient(int port, const Request& request);
-  ~WebSocketClient();
-  WebSocketClient(const WebSocketClient&) = delete;
-  WebSocketClient& operator=(const WebSocketClient&) = delete;
 
+  int own_port() const { return stream_->own_port(); }
   int status() const { return status_; }  ///< of HTTP; 101: connected; 0: none
   const std::string& answer() const { return answer_; }
 
@@ -53,7 +73,7 @@ class WebSocketClient {
  private:
   bool receive_exactly(std::span<std::uint8_t> bytes);
 
-  int socket_ = -1;
+  const std::unique_ptr<ByteStream> stream_;
   int status_ = 0;
   std::string answer_;
 };

@@ -91,10 +91,10 @@ class WebView : public ::testing::Test {
   }
 
   int port() {
-    const std::string start = "listening on ws://127.0.0.1:";
+    const std::string start = "listening on ws", host = "://127.0.0.1:";
     EXPECT_TRUE(is_logged(start));
     const std::lock_guard lock(mutex_);
-    return std::stoi(log_.substr(log_.find(start) + start.size()));
+    return std::stoi(log_.substr(log_.find(host, log_.find(start)) + host.size()));
   }
 
   /// Next text of this operation; others are skipped.
