@@ -25,6 +25,7 @@ constexpr std::chrono::seconds kDropsPeriod{10};
 ClientSession::ClientSession(View& view, WebServer::Connection& connection)
     : view_(view),
       connection_(connection),
+      notation_(connection.option("schemas") == "omgidl" ? SchemaNotation::kOmgIdl : SchemaNotation::kRos2msg),
       assembly_(kMaxRequestBytes),
       sender_(connection, {view.settings().queue_bytes, kMaxWaiting}, view.compressor(), [this] {
         view_.log().warn_throttled(
@@ -62,7 +63,7 @@ void ClientSession::welcome(bool has_time) {
 
 void ClientSession::tell(const ChannelTable::Change& change, std::vector<std::shared_ptr<void>>& ended) {
   if (!change.removed.empty()) sender_.send_text(unadvertise(change.removed));
-  if (!change.added.empty()) sender_.send_text(web_view::advertise(change.added));
+  if (!change.added.empty()) sender_.send_text(web_view::advertise(change.added, notation_));
   const std::set<std::uint32_t> removed(change.removed.begin(), change.removed.end());
   const std::lock_guard lock(mutex_);
   std::erase_if(subscriptions_, [&](auto& entry) {
@@ -76,7 +77,8 @@ void ClientSession::tell(const ChannelTable::Change& change, std::vector<std::sh
 void ClientSession::tell_time(std::int64_t time_ns) {
   if (!has_time_) {
     welcome(true);
-    sender_.send_text(web_view::advertise({}));  // on this, Lichtblick takes the types of all channels into the session
+    // On this, Lichtblick takes the types of all channels into the session.
+    sender_.send_text(web_view::advertise({}, notation_));
   }
   sender_.send_binary(time_frame(time_ns));
 }

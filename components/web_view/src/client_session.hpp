@@ -89,6 +89,7 @@ class ClientSession final : public WebServer::Session {
 
   View& view_;
   WebServer::Connection& connection_;
+  const SchemaNotation notation_;
   FrameAssembly assembly_;
   Sender sender_;
   std::map<std::uint32_t, Publication> publications_;  // by id; used by the connection's thread only

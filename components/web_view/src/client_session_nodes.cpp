@@ -105,7 +105,7 @@ void ClientSession::handle(const CallService& request) {
 
 void ClientSession::tell(const ServiceTable::Change& change) {
   if (!change.removed.empty()) sender_.send_text(unadvertise_services(change.removed));
-  if (!change.added.empty()) sender_.send_text(advertise_services(change.added));
+  if (!change.added.empty()) sender_.send_text(advertise_services(change.added, notation_));
 }
 
 void ClientSession::handle(const WatchConnectionGraph& request) {

@@ -5,8 +5,10 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 #include <type_traits>
+#include <utility>
 
 #include "little_endian.hpp"
+#include "omg_idl.hpp"
 
 namespace panvo::web_view {
 namespace {
@@ -14,7 +16,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kEncoding = "cdr";
-constexpr const char* kSchemaEncoding = "ros2msg";
 constexpr const char* kRosDistro = "jazzy";  // that of the standard messages
 
 /// Names of other processes may be invalid UTF-8, which is replaced.
@@ -33,12 +34,19 @@ json shown(const Parameter& parameter) {
   return entry;
 }
 
-json message_schema(const std::string& name) {
-  const auto* const type = interfaces::find_message_type(name);
+/// Encoding of messages of a type, and its definition: empty if the type is not known here.
+json message_schema(const std::string& name, const interfaces::MessageType* type, SchemaNotation notation) {
+  const auto definition = type ? type->definition : std::string_view();
+  if (notation == SchemaNotation::kRos2msg)
+    return {{"encoding", kEncoding}, {"schemaName", name}, {"schemaEncoding", "ros2msg"}, {"schema", definition}};
   return {{"encoding", kEncoding},
-          {"schemaName", name},
-          {"schemaEncoding", kSchemaEncoding},
-          {"schema", type ? type->definition : ""}};
+          {"schemaName", idl_name(name)},
+          {"schemaEncoding", "omgidl"},
+          {"schema", type ? idl_definition(name, definition) : ""}};
+}
+
+json message_schema(const std::string& name, SchemaNotation notation) {
+  return message_schema(name, interfaces::find_message_type(name), notation);
 }
 
 /// Entries that are new or have other nodes; those without nodes left are listed empty unless `is_removed`.
@@ -95,15 +103,13 @@ std::string status(StatusLevel level, std::string_view message) {
   return serialized({{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}});
 }
 
-std::string advertise(std::span<const Channel> channels) {
+std::string advertise(std::span<const Channel> channels, SchemaNotation notation) {
   json list = json::array();
   for (const auto& channel : channels) {
-    list.push_back({{"id", channel.id},
-                    {"topic", channel.what.name},
-                    {"encoding", kEncoding},
-                    {"schemaName", channel.what.type_name},
-                    {"schema", channel.what.type ? channel.what.type->definition : ""},
-                    {"schemaEncoding", kSchemaEncoding}});
+    json entry = message_schema(channel.what.type_name, channel.what.type, notation);
+    entry["id"] = channel.id;
+    entry["topic"] = channel.what.name;
+    list.push_back(std::move(entry));
   }
   return serialized({{"op", "advertise"}, {"channels", list}});
 }
@@ -112,14 +118,14 @@ std::string unadvertise(std::span<const std::uint32_t> channels) {
   return serialized({{"op", "unadvertise"}, {"channelIds", std::vector(channels.begin(), channels.end())}});
 }
 
-std::string advertise_services(std::span<const OfferedService> services) {
+std::string advertise_services(std::span<const OfferedService> services, SchemaNotation notation) {
   json list = json::array();
   for (const auto& service : services) {
     list.push_back({{"id", service.id},
                     {"name", service.what.name},
                     {"type", service.what.type_name},
-                    {"request", message_schema(service.what.type_name + "_Request")},
-                    {"response", message_schema(service.what.type_name + "_Response")}});
+                    {"request", message_schema(service.what.type_name + "_Request", notation)},
+                    {"response", message_schema(service.what.type_name + "_Response", notation)}});
   }
   return serialized({{"op", "advertiseServices"}, {"services", list}});
 }

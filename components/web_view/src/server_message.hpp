@@ -23,6 +23,9 @@ using ServiceTable = OfferTable<runtime::ServiceDescription>;
 using Channel = Offer<runtime::TopicDescription>;
 using OfferedService = Offer<runtime::ServiceDescription>;
 
+/// How the types of messages are described to a client: ROS 2's .msg notation, or OMG IDL.
+enum class SchemaNotation { kRos2msg, kOmgIdl };
+
 enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 
 /// `capabilities`: of the protocol, such as "clientPublish". `session` identifies this run of the server. `range`: of what
@@ -30,10 +33,10 @@ enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 std::string server_info(std::string_view name, const std::vector<std::string>& capabilities, std::string_view session,
                         const std::optional<runtime::StampRange>& range);
 std::string status(StatusLevel level, std::string_view message);
-std::string advertise(std::span<const Channel> channels);
+std::string advertise(std::span<const Channel> channels, SchemaNotation notation);
 std::string unadvertise(std::span<const std::uint32_t> channels);
 /// Services whose types are known here.
-std::string advertise_services(std::span<const OfferedService> services);
+std::string advertise_services(std::span<const OfferedService> services, SchemaNotation notation);
 std::string unadvertise_services(std::span<const std::uint32_t> services);
 /// `id`: of the request that is answered; empty: none.
 std::string parameter_values(std::span<const Parameter> parameters, std::string_view id);

@@ -25,13 +25,18 @@ std::string header_of(const mg_connection* connection, const char* name) {
   return header ? header : "";
 }
 
+/// NAME=VALUE of the address; empty if it is not there.
+std::string query_value(const mg_connection* connection, const char* name) {
+  const char* const query = mg_get_request_info(connection)->query_string;
+  std::array<char, kMaxSecret> value{};
+  if (!query || mg_get_var(query, std::strlen(query), name, value.data(), value.size()) <= 0) return "";
+  return value.data();
+}
+
 std::string token_of(const mg_connection* connection) {
   const std::string header = header_of(connection, "Authorization");
   if (const auto token = bearer_token(header); !token.empty()) return std::string(token);
-  const char* const query = mg_get_request_info(connection)->query_string;
-  std::array<char, kMaxSecret> token{};
-  if (!query || mg_get_var(query, std::strlen(query), "token", token.data(), token.size()) <= 0) return "";
-  return token.data();
+  return query_value(connection, "token");
 }
 
 Credentials credentials_of(const mg_connection* connection, const std::string& cookie_name) {
@@ -180,6 +185,8 @@ bool WebServer::Connection::send_binary(std::span<const std::uint8_t> frame) {
   return mg_websocket_write(connection_, MG_WEBSOCKET_OPCODE_BINARY, reinterpret_cast<const char*>(frame.data()),
                             frame.size()) > 0;
 }
+
+std::string WebServer::Connection::option(const char* name) const { return query_value(connection_, name); }
 
 void WebServer::Connection::close() { socket_.shut_down(); }
 

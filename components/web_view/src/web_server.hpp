@@ -45,6 +45,8 @@ class WebServer {
     void close();
     /// "192.168.1.7:43210".
     const std::string& address() const { return address_; }
+    /// A value of the address that the client opened, ws://HOST:PORT?NAME=VALUE; empty: none.
+    std::string option(const char* name) const;
 
    private:
     mg_connection* const connection_;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "std_msgs/msg/Header.h"
 #include "std_msgs/msg/String.h"
 
 namespace panvo::web_view {
@@ -34,14 +35,30 @@ TEST(ServerMessage, OffersChannels) {
     "schema": "", "schemaEncoding": "ros2msg"}, {"id": 4, "topic": "/odd", "encoding": "cdr",
     "schemaName": "odd_msgs/msg/Odd", "schema": "", "schemaEncoding": "ros2msg"}]})");
   expected["channels"][0]["schema"] = type.definition;
-  EXPECT_EQ(json::parse(advertise(channels)), expected);
+  EXPECT_EQ(json::parse(advertise(channels, SchemaNotation::kRos2msg)), expected);
   EXPECT_EQ(json::parse(unadvertise(std::vector<std::uint32_t>{3, 4})),
             json::parse(R"({"op": "unadvertise", "channelIds": [3, 4]})"));
 }
 
+TEST(ServerMessage, DescribesTypesInOmgIdlToo) {
+  const auto& type = interfaces::message_type<std_msgs::msg::Header>();
+  const std::vector<Channel> channels{{3, {"/head", "std_msgs/msg/Header", {}, &type}},
+                                      {4, {"/odd", "odd_msgs/msg/Odd", {}, nullptr}}};
+  const json offered = json::parse(advertise(channels, SchemaNotation::kOmgIdl))["channels"];
+  EXPECT_EQ(offered[0]["schemaName"], "std_msgs::msg::Header");
+  EXPECT_EQ(offered[0]["schemaEncoding"], "omgidl");
+  EXPECT_THAT(std::string(offered[0]["schema"]), testing::HasSubstr("builtin_interfaces::msg::Time stamp;"));
+  EXPECT_EQ(offered[1]["schema"], "");
+  const std::vector<OfferedService> services{{7, {"/node/list_parameters", "rcl_interfaces/srv/ListParameters"}}};
+  const json service = json::parse(advertise_services(services, SchemaNotation::kOmgIdl))["services"].at(0);
+  EXPECT_EQ(service["type"], "rcl_interfaces/srv/ListParameters");
+  EXPECT_EQ(service["request"]["schemaName"], "rcl_interfaces::srv::ListParameters_Request");
+  EXPECT_THAT(std::string(service["request"]["schema"]), testing::HasSubstr("sequence<string> prefixes;"));
+}
+
 TEST(ServerMessage, OffersServicesWithBothSchemas) {
   const std::vector<OfferedService> services{{7, {"/node/list_parameters", "rcl_interfaces/srv/ListParameters"}}};
-  const json service = json::parse(advertise_services(services))["services"].at(0);
+  const json service = json::parse(advertise_services(services, SchemaNotation::kRos2msg))["services"].at(0);
   EXPECT_EQ(service["id"], 7);
   EXPECT_EQ(service["name"], "/node/list_parameters");
   EXPECT_EQ(service["type"], "rcl_interfaces/srv/ListParameters");

@@ -48,6 +48,19 @@ TEST_F(WebView, SendsWhatAClientSubscribesTo) {
   EXPECT_THAT(std::vector<std::uint8_t>(frame.begin(), frame.begin() + 5), ::testing::ElementsAre(1, 77, 0, 0, 0));
 }
 
+TEST_F(WebView, DescribesTypesInOmgIdlToClientsThatAskForIt) {
+  start();
+  WebSocketClient client(port(), {.path = "/?schemas=omgidl"}), other(port());
+  for (auto* one : {&client, &other}) {
+    const json channels = next_text(*one, "advertise")["channels"];
+    const auto found =
+        std::ranges::find_if(channels, [](const json& channel) { return channel["topic"] == "/odometry/binocular"; });
+    ASSERT_NE(found, channels.end());
+    EXPECT_EQ((*found)["schemaEncoding"], one == &client ? "omgidl" : "ros2msg");
+    EXPECT_EQ((*found)["schemaName"], one == &client ? "nav_msgs::msg::Odometry" : "nav_msgs/msg/Odometry");
+  }
+}
+
 TEST_F(WebView, OffersRawImagesCompressedToo) {
   start();
   WebSocketClient client(port()), other(port());
