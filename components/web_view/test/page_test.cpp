@@ -64,6 +64,9 @@ TEST(Page, SaysHowToBuildItWhereItIsMissing) {
   EXPECT_EQ(answer.status, 404);
   EXPECT_THAT(answer.body, HasSubstr("panvo build"));
   EXPECT_THAT(answer.body, HasSubstr("ds.url=ws://localhost:8765"));
+  auto secure = request("/");
+  secure.is_secure = true;
+  EXPECT_THAT(Page({}).get(secure).body, HasSubstr("ds.url=wss://localhost:8765"));
   EXPECT_EQ(Page({}).get(request("/main.js")).content_type, "text/plain; charset=utf-8");
 }
 
