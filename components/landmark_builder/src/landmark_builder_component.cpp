@@ -149,8 +149,10 @@ class LandmarkBuilderComponent final : public runtime::Component {
     work_off();
   }
 
-  /// After the clock was set back: old stamps must not be mixed with new ones.
+  /// After the clock was set back: old stamps must not be mixed with new ones. The panoramas' clock may have been left as
+  /// it was: the localizer searches its offset again, and tells it even if it is the same.
   void begin_anew() {
+    is_clock_known_ = false;
     odometry_.clear();
     waiting_.clear();
     last_stamp_ns_.reset();

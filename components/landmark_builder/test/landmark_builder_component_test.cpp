@@ -46,11 +46,10 @@ class LandmarkBuilderComponent : public ::testing::Test {
     harness_.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
   }
 
-  /// The panoramic camera's clock is 0.3 s ahead.
-  void publish_time_reference() {
+  void publish_time_reference(std::int64_t panorama_ahead_ns = 300'000'000) {
     sensor_msgs::msg::TimeReference message;
     message.header().stamp(conversions::to_stamp(100'000'000'000));
-    message.time_ref(conversions::to_stamp(100'300'000'000));
+    message.time_ref(conversions::to_stamp(100'000'000'000 + panorama_ahead_ns));
     harness_.publish(topics::kPanoramaTimeReference, message);
   }
 
@@ -159,6 +158,20 @@ TEST_F(LandmarkBuilderComponent, PublishesAtTheEndWhatWaitsForTheClock) {
   EXPECT_THAT(harness_.container().run(), IsEmpty());
   ASSERT_THAT(landmarks_, SizeIs(1));
   EXPECT_TRUE(landmarks_[0]->is_junction());
+}
+
+/// The stereo camera's clock alone: by its former offset, the panoramas are 1.5 m off.
+TEST_F(LandmarkBuilderComponent, WaitsForTheClockAgainAfterItWasSetBack) {
+  load({{"rule.wait_for_clock_s", "60"}});
+  publish_mounting();
+  publish_time_reference(0);
+  ahead_s_ = 600.0;
+  drive(std::nullopt, -31.0, -28.0);
+  ahead_s_ = 0.0;
+  drive(28.0, -28.0, 30.0);
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  const double x = landmarks_[0]->pose().pose().position().x();
+  EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(*landmarks_[0])) * 1e-9, 100.3 + 0.2 * x, 1e-3);
 }
 
 TEST_F(LandmarkBuilderComponent, BuildsOnIfTheClockIsSetBack) {
