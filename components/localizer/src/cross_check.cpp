@@ -11,10 +11,12 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kUnseen_s = 5.0;    // unseen motion of the vehicle is bounded by that of so long a silence
-constexpr double kReach = 3.0;       // standard deviations of that
-constexpr double kAlarm_s = 0.5;     // time until a panorama confirms or refutes the jump
-constexpr double kImpossible = 6.0;  // standard deviations of usual vehicle motion
+constexpr double kUnseen_s = 5.0;           // unseen motion of the vehicle is bounded by that of so long a silence
+constexpr double kReach = 3.0;              // standard deviations of that
+constexpr double kAlarm_s = 0.5;            // time until a panorama confirms or refutes the jump
+constexpr double kIntervals = 2.5;          // until it is too late for the next panorama, if one was lost
+constexpr double kLongestInterval_s = 2.0;  // of panoramas: at longer ones, too much may have changed in between
+constexpr double kImpossible = 6.0;         // standard deviations of usual vehicle motion
 
 constexpr double kDirectionError_rad = 0.01;     // of panoramas, in addition to their stated error
 constexpr double kAlike_rad = 0.005;             // error common to the directions of all panoramas of a journey
@@ -65,6 +67,7 @@ void CrossCheck::begin_reference() {
 
 std::optional<Wrong> CrossCheck::add_turns(const OdometryBuffer& chain, const Stretch& stretch,
                                            const Disagreement& turns) {
+  note_panorama(stretch.to_ns);
   if (!turns.is_too_much) {
     turn_dispute_.end();
     return std::nullopt;
@@ -89,14 +92,13 @@ std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const St
     auto off_m = verdict.off_m;
     if (!off_m) off_m = settle_jump(chain, stretch, odometry->way_m.norm(), azimuth.side_parallax_rad);
     if (is_camera_turned() || (!off_m && !turn_dispute_.is_on())) {
-      way_dispute_.end();
+      end_way_dispute();
     } else {
       const auto gone = is_old_jump(stretch.to_ns) ? std::nullopt : gone_on(chain, stretch.to_ns);
       const double part =
           gone ? vision::seconds(stretch.from_ns, stretch.to_ns) / vision::seconds(*agreed_ns_, stretch.to_ns) : 0.0;
       const double otherwise_m = gone ? gone->more.way_m.norm() * std::min(1.0, part) : 0.0;
-      way_dispute_.add(stretch.reference_ns, stretch.to_ns, std::max(off_m.value_or(0.0), otherwise_m),
-                       {Wrong::kOdometry, 0.0});
+      dispute_way(stretch, std::max(off_m.value_or(0.0), otherwise_m));
       chain.allow(stretch.from_ns, stretch.to_ns, way_dispute_.growth(1.0), 0.0);
     }
   }
@@ -117,7 +119,7 @@ void CrossCheck::confirm_pose(std::int64_t stamp_ns) {
 
 void CrossCheck::forget() {
   turn_dispute_.end();
-  way_dispute_.end();
+  end_way_dispute();
   agreed_ns_.reset();
   seen_.reset();
   lasting_.reset();
@@ -125,6 +127,7 @@ void CrossCheck::forget() {
   witness_.forget();
   speed_agreed_ns_.reset();
   break_.reset();
+  panorama_ns_.reset();
 }
 
 std::optional<std::string> CrossCheck::fault_of_odometry(std::int64_t now_ns) const {
@@ -139,7 +142,7 @@ std::vector<Doubt> CrossCheck::doubts(std::int64_t now_ns) const {
                       "odometry lost track, and nothing has confirmed yet that the vehicle was not moved"});
   }
   if (jump_ && is_fresh(jump_->last_ns(), now_ns)) {
-    const double since_s = jump_->contradicted_ns ? 0.0 : vision::seconds(jump_->since_ns, now_ns);
+    const double since_s = vision::seconds(jump_->contradicted_ns.value_or(jump_->since_ns), now_ns);
     doubts.push_back(
         {jump_->speed_m_s * std::max(kAlarm_s, since_s), true, "implausible change of the odometry's speed"});
   }
@@ -318,8 +321,16 @@ std::optional<std::int64_t> CrossCheck::settle_break(OdometryBuffer& chain, cons
   return std::nullopt;
 }
 
+void CrossCheck::note_panorama(std::int64_t stamp_ns) {
+  if (panorama_ns_ && stamp_ns <= *panorama_ns_) return;
+  if (panorama_ns_) panorama_intervals_s_ = {panorama_intervals_s_[1], vision::seconds(*panorama_ns_, stamp_ns)};
+  panorama_ns_ = stamp_ns;
+}
+
+/// Of two intervals, one may be a gap.
 bool CrossCheck::is_fresh(std::int64_t stamp_ns, std::int64_t now_ns) const {
-  return vision::seconds(stamp_ns, now_ns) < patience_s_;
+  const double interval_s = std::min({panorama_intervals_s_[0], panorama_intervals_s_[1], kLongestInterval_s});
+  return vision::seconds(stamp_ns, now_ns) < std::max(patience_s_, kIntervals * interval_s);
 }
 
 }  // namespace panvo::localizer

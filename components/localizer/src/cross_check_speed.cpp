@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "panvo/localizer/cross_check.hpp"
@@ -18,6 +19,8 @@ constexpr double kSame = 0.2;            // fraction of the distance: a smaller 
 constexpr double kLongestJump_s = 5.0;   // then, the speed is not as before
 constexpr double kTells = 8.0;           // errors of parallax: on a shorter way, it would hardly show half the speed
 constexpr double kHalfWay = 0.5;         // half-way between two explanations
+constexpr double kSurely = 4.5;          // standard deviations of one sighting: three of two
+constexpr std::size_t kMostOff = 1000;   // some minutes of panoramas: sightings come sooner
 
 }  // namespace
 
@@ -103,21 +106,48 @@ std::optional<double> CrossCheck::settle_old_jump(const Stretch& stretch, double
   return std::abs(shown->m - said_m);
 }
 
-/// Odometry was right if the place is nearer to where it was expected than panoramas say.
-void CrossCheck::add_place(double moved_m) {
+/// Odometry was right if the place is nearer to where it was expected than panoramas say it is since the pose was
+/// corrected last, by more than sightings err. A place that was built since the jump tells nothing.
+void CrossCheck::add_place(const Place& place) {
   if (!jump_ || !jump_->contradicted_ns || !way_dispute_.is_on()) return;
-  const double off_m = way_dispute_.total() - jump_->placed_at_m;
-  jump_->placed_at_m = way_dispute_.total();
-  if (moved_m > kHalfWay * off_m) return;
+  const double off_m = total_off_m(place.stamp_ns) - total_off_m(jump_->corrected_ns);
+  add_correction(place.stamp_ns);
+  if (place.built_ns > jump_->since_ns || std::max(place.off_m, kSurely * place.sigma_m) > kHalfWay * off_m) return;
   end_jump();
+  end_way_dispute();
+}
+
+void CrossCheck::add_correction(std::int64_t stamp_ns) {
+  if (jump_) jump_->corrected_ns = std::max(jump_->corrected_ns, stamp_ns);
+}
+
+void CrossCheck::dispute_way(const Stretch& stretch, double off_m) {
+  if (off_.empty()) off_.push_back({stretch.from_ns, 0.0});
+  way_dispute_.add(stretch.reference_ns, stretch.to_ns, off_m, {Wrong::kOdometry, 0.0});
+  off_.push_back({stretch.to_ns, way_dispute_.total()});
+  if (off_.size() > kMostOff) off_.pop_front();
+}
+
+void CrossCheck::end_way_dispute() {
   way_dispute_.end();
+  off_.clear();
+}
+
+/// How far odometry was off at a time, in all. After the last panorama, it is not known yet how much more.
+double CrossCheck::total_off_m(std::int64_t stamp_ns) const {
+  const auto after = std::find_if(off_.begin(), off_.end(), [&](const Off& off) { return off.stamp_ns >= stamp_ns; });
+  if (after == off_.end()) return off_.empty() ? 0.0 : off_.back().total_m;
+  if (after == off_.begin()) return after->total_m;
+  const auto before = std::prev(after);
+  const double share = vision::seconds(before->stamp_ns, stamp_ns) / vision::seconds(before->stamp_ns, after->stamp_ns);
+  return before->total_m + share * (after->total_m - before->total_m);
 }
 
 /// Odometry has been wrong since the jump, not only since the panorama that shows it.
 void CrossCheck::catch_up(OdometryBuffer& chain, const Stretch& stretch) {
   const auto earlier = unless_it_jumped(chain, *agreed_ns_, stretch.from_ns);
   if (!earlier || way_dispute_.is_on()) return;
-  way_dispute_.add(*agreed_ns_, stretch.from_ns, earlier->off_m, {Wrong::kOdometry, 0.0});
+  dispute_way({*agreed_ns_, *agreed_ns_, stretch.from_ns}, earlier->off_m);
   chain.allow(*agreed_ns_, stretch.from_ns, way_dispute_.growth(1.0), 0.0);
 }
 

@@ -248,7 +248,7 @@ void Localizer::set_state(LocalizedPose& pose) const {
   if (!is_located_) return tell(State::kUnlocated, unlocated_reason_);
   if (auto fault = check_.fault_of_odometry(pose.stamp_ns)) return tell(State::kCompassOnly, *std::move(fault));
   if (unreliable_since_ns_) {
-    const bool has_azimuth = azimuth_ns_ && vision::seconds(*azimuth_ns_, pose.stamp_ns) < parameters_.patience_s;
+    const bool has_azimuth = azimuth_ns_ && check_.is_fresh(*azimuth_ns_, pose.stamp_ns);
     const double since_s = vision::seconds(*unreliable_since_ns_, pose.stamp_ns);
     if (has_azimuth) return tell(State::kCompassOnly, fmt::format("odometry unreliable for {:.1f} s", since_s));
     if (since_s > parameters_.patience_s) {

@@ -31,6 +31,7 @@ FixOutcome Localizer::add(const GnssFix& received) {
   corrected.add_fix(fix, *at);
   if (!corrected.solve()) return {FixUse::kRejected, "the pose graph could not be solved"};
   graph_ = std::move(corrected);
+  check_.add_correction(at->pose.stamp_ns);
   latest_ = localized(chain_.latest());
   return {FixUse::kUsed, {}};
 }
@@ -59,6 +60,7 @@ FixOutcome Localizer::try_fixes(const GnssTrial::Sample& sample, double least_m)
   if (!corrected.solve()) return {FixUse::kOnTrial, "the pose graph could not be solved"};
   graph_ = std::move(corrected);
   fix_trial_.clear();
+  check_.add_correction(sample.at.pose.stamp_ns);
   if (locates) {
     is_located_ = is_joined_ = true;
     found_at_way_m_ = sample.at.way_m;

@@ -73,9 +73,12 @@ Correction Localizer::add(const LandmarkSighting& received) {
   if (!azimuth_ns_) check_.confirm_pose(at->pose.stamp_ns);  // with a compass, the panoramas decide
   correction.kind = CorrectionKind::kApplied;
   correction.map_from_base_after = graph_.carried(*at).map_from_base;
-  const Eigen::Vector3d moved =
-      correction.map_from_base_after.translation() - correction.map_from_base_before.translation();
-  if (!joins) check_.add_place(moved.head<2>().norm());
+  if (joins) {
+    check_.add_correction(at->pose.stamp_ns);
+  } else {
+    check_.add_place({at->pose.stamp_ns, verdict.off_m, vision::horizontal_sigma(sighting.covariance),
+                      graph_.is_known(sighting.landmark_id) ? INT64_MIN : landmark->stamp_ns});
+  }
   latest_ = localized(chain_.latest());
   return correction;
 }
@@ -147,6 +150,7 @@ bool Localizer::set_initial_pose(const PoseInMap& pose, std::int64_t stamp_ns) {
   doubtful_ns_.reset();
   asking_.reset();
   conflicting_.reset();
+  check_.add_correction(at->pose.stamp_ns);
   found_at_way_m_ = at->way_m;
   latest_ = localized(chain_.latest());
   return true;
@@ -159,7 +163,6 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
   verdict.dissent = conflicting_;
   const Eigen::Isometry3d measured = landmark.map_from_base * sighting.landmark_from_base;
   const bool is_placed = is_joined_ || !graph_.is_known(sighting.landmark_id);
-  double off_m = 0.0;
   if (is_placed) {
     auto here = graph_.carried(at);
     if (graph_.is_known(sighting.landmark_id)) here.covariance += graph_.since_known(at);
@@ -168,7 +171,7 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
         here.covariance + vision::compose_covariance(landmark.map_from_base, landmark.covariance,
                                                      sighting.landmark_from_base, sighting.covariance);
     verdict.chi_square = error.dot(spread.ldlt().solve(error));
-    off_m = error.head<2>().norm();
+    verdict.off_m = error.head<2>().norm();
   }
   const bool is_expected = is_placed && verdict.chi_square <= parameters_.gate_chi_square;
   if (is_expected && sighting.stands_alone) {
@@ -176,8 +179,8 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
     return verdict;
   }
   const bool is_far = is_placed && sighting.stands_alone;
-  const PendingRelocalization now{sighting,        measured * at.pose.odom_from_base.inverse(), at.way_m, off_m, is_far,
-                                  at.pose.stamp_ns};
+  const PendingRelocalization now{
+      sighting, measured * at.pose.odom_from_base.inverse(), at.way_m, verdict.off_m, is_far, at.pose.stamp_ns};
   verdict.asking = now;
   const bool is_confirmed = asking_ && confirms(now, *asking_);
   if (is_far) return judge_far(std::move(verdict), now, is_confirmed);

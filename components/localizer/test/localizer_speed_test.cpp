@@ -3,13 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <map>
 
 #include "panvo/localizer/localizer.hpp"
 
 namespace panvo::localizer {
 namespace {
 
-/// A vehicle that drives straight ahead, with 25 stereo pairs and 5 panoramas per second.
+/// A vehicle that drives straight ahead, with 25 stereo pairs per second.
 class Ahead {
  public:
   Ahead() : localizer(parameters()) { localizer.add(odometry_); }
@@ -19,18 +21,29 @@ class Ahead {
     for (int i = 0; i < frames; ++i) step();
   }
 
-  void build() {
-    built_at_m_ = true_x_m_;
-    EXPECT_TRUE(localizer.add_built(1, odometry_.stamp_ns));
+  void build(std::uint32_t id = 1) {
+    built_at_m_[id] = true_x_m_;
+    EXPECT_TRUE(localizer.add_built(id, odometry_.stamp_ns));
   }
-  /// Sees the place again, from however far.
-  void see() {
+  /// What a panorama of now shows of a place, from however far.
+  LandmarkSighting sight(std::uint32_t id, double error_m = 0.0, double sigma_m = 0.01) const {
     LandmarkSighting sighting;
     sighting.stamp_ns = odometry_.stamp_ns;
-    sighting.landmark_id = 1;
-    sighting.landmark_from_base.translation().x() = true_x_m_ - built_at_m_;
-    sighting.covariance = 0.01 * 0.01 * vision::Matrix6d::Identity();
-    EXPECT_EQ(localizer.add(sighting).kind, CorrectionKind::kApplied);
+    sighting.landmark_id = id;
+    sighting.landmark_from_base.translation().x() = true_x_m_ - built_at_m_.at(id) + error_m;
+    sighting.covariance = sigma_m * sigma_m * vision::Matrix6d::Identity();
+    return sighting;
+  }
+  void see(const LandmarkSighting& sighting) {
+    const auto correction = localizer.add(sighting);
+    EXPECT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
+  }
+  void see(std::uint32_t id = 1) { see(sight(id)); }
+  /// Somebody says where the vehicle is.
+  void say() {
+    PoseInMap pose{Eigen::Isometry3d(Eigen::Translation3d(true_x_m_, 0.0, 0.0)),
+                   0.01 * 0.01 * vision::Matrix6d::Identity()};
+    EXPECT_TRUE(localizer.set_initial_pose(pose, odometry_.stamp_ns));
   }
 
   double error_m() const { return std::abs(localizer.latest().map_from_base.translation().x() - true_x_m_); }
@@ -52,6 +65,8 @@ class Ahead {
   double scale = 1.0;       // of the odometry
   double farness_m = 12.0;  // of what is beside the path
   bool has_panoramas = true;
+  int pairs_per_panorama = 5;
+  bool is_reliable = true;
 
  private:
   static Parameters parameters() {
@@ -72,15 +87,18 @@ class Ahead {
     odometry_.covariance = vision::compose_covariance(odometry_.odom_from_base, odometry_.covariance, move, gained);
     odometry_.odom_from_base = odometry_.odom_from_base * move;
     odometry_.stamp_ns = frame_ * kPair_ns;
+    odometry_.is_reliable = is_reliable;
     localizer.add(odometry_);
-    if (frame_ % 5 != 0 || !has_panoramas) return;
-    localizer.add(AzimuthMeasurement{odometry_.stamp_ns - 5 * kPair_ns, odometry_.stamp_ns, 0.0, 1e-8, 0.0,
-                                     speed_m_s != 0.0 ? 1e-5 : 1.0, speed_m_s * 0.2 / farness_m});
+    if (frame_ % pairs_per_panorama != 0 || !has_panoramas) return;
+    const double way_m = speed_m_s * 0.04 * pairs_per_panorama;
+    localizer.add(AzimuthMeasurement{odometry_.stamp_ns - pairs_per_panorama * kPair_ns, odometry_.stamp_ns, 0.0, 1e-8,
+                                     0.0, speed_m_s != 0.0 ? 1e-5 : 1.0, way_m / farness_m});
   }
 
   OdometryPose odometry_;
   std::int64_t frame_ = 0;
-  double true_x_m_ = 0.0, built_at_m_ = 0.0;
+  double true_x_m_ = 0.0;
+  std::map<std::uint32_t, double> built_at_m_;
 };
 
 TEST(LocalizerSpeed, CoversAnOdometryWhoseSpeedJumpsAlthoughItsDirectionStays) {
@@ -125,6 +143,39 @@ TEST(LocalizerSpeed, IsDoubtedAsLongAsPanoramasContradictIt) {
   }
 }
 
+TEST(LocalizerSpeed, IsDoubtedAsLongAsPanoramasOfASlowCameraContradictIt) {
+  for (const int pairs : {25, 37, 50}) {  // per panorama: 1 Hz to 0.5 Hz
+    for (const double scale : {0.5, 2.0, 0.0}) {
+      Ahead vehicle;
+      vehicle.pairs_per_panorama = pairs;
+      vehicle.drive(20.2);
+      EXPECT_TRUE(vehicle.is_usable()) << pairs << ", " << scale;
+      vehicle.scale = scale;
+      vehicle.drive(0.2);
+      for (int i = 0; i < 20; ++i) {
+        vehicle.drive(0.4);
+        EXPECT_FALSE(vehicle.is_usable()) << pairs << ", " << scale << ", " << i;
+        EXPECT_LT(vehicle.error_m(), 3.0 * vehicle.sigma_m() + vehicle.doubted_m())
+            << pairs << ", " << scale << ", " << i;
+      }
+      vehicle.scale = 1.0;
+      vehicle.drive(0.04 * 5.0 * pairs);
+      EXPECT_TRUE(vehicle.is_usable()) << pairs << ", " << scale;
+    }
+  }
+}
+
+TEST(LocalizerSpeed, IsNotLostBetweenThePanoramasOfASlowCamera) {
+  Ahead vehicle;
+  vehicle.pairs_per_panorama = 37;
+  vehicle.drive(10.0);
+  vehicle.is_reliable = false;
+  for (int i = 0; i < 50; ++i) {
+    vehicle.drive(0.08);
+    EXPECT_EQ(vehicle.localizer.latest().state, State::kCompassOnly) << i;
+  }
+}
+
 TEST(LocalizerSpeed, IsDoubtedBeyondAStopAndAtOtherSpeeds) {
   Ahead vehicle;
   vehicle.drive(5.0);
@@ -152,6 +203,66 @@ TEST(LocalizerSpeed, IsDoubtedBeyondAPlaceThatProvesItWrong) {
     EXPECT_FALSE(vehicle.is_usable()) << i;
     EXPECT_LT(vehicle.error_m(), 3.0 * vehicle.sigma_m() + vehicle.doubted_m()) << i;
   }
+}
+
+/// A place has proven the speed wrong. Where the pose has been corrected since, another place is where it is expected.
+class LocalizerSpeedProvenWrong : public testing::Test {
+ protected:
+  LocalizerSpeedProvenWrong() {
+    vehicle_.drive(2.0);
+    for (const std::uint32_t id : {1U, 2U, 3U}) vehicle_.build(id);
+    vehicle_.drive(3.0);
+    vehicle_.scale = 2.0;
+    vehicle_.drive(8.0);
+  }
+  void expect_doubt() {
+    for (int i = 0; i < 5; ++i) {
+      EXPECT_FALSE(vehicle_.is_usable()) << i;
+      EXPECT_LT(vehicle_.error_m(), 3.0 * vehicle_.sigma_m() + vehicle_.doubted_m()) << i;
+      vehicle_.drive(1.0);
+    }
+  }
+
+  Ahead vehicle_;
+};
+
+TEST_F(LocalizerSpeedProvenWrong, IsDoubtedBeyondPlacesBetweenTwoPanoramas) {
+  vehicle_.see(vehicle_.sight(1, 0.0, 0.3));
+  vehicle_.drive(0.16);
+  vehicle_.see(vehicle_.sight(2, 0.0, 0.1));
+  vehicle_.drive(0.04);
+  vehicle_.see(vehicle_.sight(3, 0.0, 0.1));
+  expect_doubt();
+}
+
+TEST_F(LocalizerSpeedProvenWrong, IsDoubtedBeyondPlacesThatWereRecognisedLaterAndLater) {
+  vehicle_.see(1);
+  vehicle_.drive(0.2);
+  const auto late = vehicle_.sight(2);
+  vehicle_.drive(0.8);
+  vehicle_.see(late);
+  expect_doubt();
+}
+
+TEST_F(LocalizerSpeedProvenWrong, IsDoubtedBeyondASightingWhoseErrorIsOdometrys) {
+  vehicle_.see(vehicle_.sight(1, 0.0, 0.3));
+  vehicle_.drive(0.2);
+  vehicle_.see(vehicle_.sight(2, 0.9, 0.3));  // three standard deviations
+  expect_doubt();
+}
+
+TEST_F(LocalizerSpeedProvenWrong, IsDoubtedBeyondAnExternalPose) {
+  vehicle_.say();
+  vehicle_.drive(0.4);
+  vehicle_.see(1);
+  expect_doubt();
+}
+
+TEST_F(LocalizerSpeedProvenWrong, IsDoubtedBeyondAPlaceThatWasBuiltSince) {
+  vehicle_.build(4);
+  vehicle_.drive(2.0);
+  vehicle_.see(4);
+  expect_doubt();
 }
 
 TEST(LocalizerSpeed, IsDoubtedNoLongerWhereAPlaceProvesItRight) {

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,8 +65,15 @@ class CrossCheck {
   /// a compass.
   void confirm_pose(std::int64_t stamp_ns);
 
-  /// A place moved the latest pose horizontally by so much.
-  void add_place(double moved_m);
+  /// A place that corrects the pose.
+  struct Place {
+    std::int64_t stamp_ns;  ///< in the odometry's clock
+    double off_m, sigma_m;  ///< horizontally: from where it was expected; of the sighting
+    std::int64_t built_ns;  ///< the same; INT64_MIN on an earlier journey
+  };
+  void add_place(const Place& place);
+  /// Something else corrected the pose at this time: how far odometry was off before, no place tells.
+  void add_correction(std::int64_t stamp_ns);
 
   /// Discards measurements of the former clock, except the mounting angles.
   void forget();
@@ -80,6 +89,8 @@ class CrossCheck {
   const DirectionOffset& direction_offset() const noexcept { return direction_offset_; }
   /// As it was before panoramas that are added again.
   void set_direction_offset(const DirectionOffset& offset) { direction_offset_ = offset; }
+  /// Whether a panorama of this time tells something of now: at slow cameras, the next one is not due yet.
+  bool is_fresh(std::int64_t stamp_ns, std::int64_t now_ns) const;
 
  private:
   struct TurnAndWay {  // in the plane
@@ -117,7 +128,7 @@ class CrossCheck {
     bool is_from_agreement = false;                 // odometry was right before
     std::optional<std::int64_t> contradicted_ns{};  // last panorama that contradicts it
     bool is_agreeing = false;                       // the last panorama confirmed it
-    double placed_at_m = 0.0;                       // by how much odometry was off in all at the last place
+    std::int64_t corrected_ns = INT64_MIN;          // up to which the pose was corrected
 
     std::int64_t last_ns() const { return std::max(shown_ns, contradicted_ns.value_or(shown_ns)); }
   };
@@ -126,6 +137,11 @@ class CrossCheck {
     double length_m;  // of the whole stretch
     double off_m;     // from odometry
     double time_s;    // since the jump
+  };
+
+  struct Off {  // in a dispute on the way
+    std::int64_t stamp_ns;
+    double total_m;
   };
 
   struct Break {  // of the odometry, between two measured images
@@ -158,7 +174,10 @@ class CrossCheck {
   bool is_camera_turned() const noexcept {
     return turn_dispute_.is_on() && turn_dispute_.blame().wrong == Wrong::kPanoramas;
   }
-  bool is_fresh(std::int64_t stamp_ns, std::int64_t now_ns) const;
+  void dispute_way(const Stretch& stretch, double off_m);
+  void end_way_dispute();
+  double total_off_m(std::int64_t stamp_ns) const;
+  void note_panorama(std::int64_t stamp_ns);
 
   // Probability that the side considered right in a dispute is wrong: then the pose is off by three standard deviations.
   static constexpr double kDoubt = 1.0 / 9.0;
@@ -172,14 +191,17 @@ class CrossCheck {
   DirectionOffset direction_offset_;
   double camera_turned_rad_ = 0.0;  // accumulated rotation of the panoramic camera on its mount
   Dispute turn_dispute_, way_dispute_;
+  std::deque<Off> off_;                    // since the dispute on the way began
   std::optional<std::int64_t> agreed_ns_;  // last panorama that agreed with odometry
   std::optional<Seen> seen_;               // last, against the current reference
   std::optional<Lasting> lasting_;         // while the directions differ
   std::optional<Jump> jump_;               // not yet confirmed by a panorama
   Dispute unsure_;                         // while panoramas neither confirm nor contradict it
   SpeedWitness witness_;
-  std::optional<std::int64_t> speed_agreed_ns_;  // panorama that confirmed the speed after the last jump
-  std::optional<Break> break_;                   // not yet confirmed by a panorama
+  std::optional<std::int64_t> speed_agreed_ns_;   // panorama that confirmed the speed after the last jump
+  std::optional<Break> break_;                    // not yet confirmed by a panorama
+  std::optional<std::int64_t> panorama_ns_;       // last one
+  std::array<double, 2> panorama_intervals_s_{};  // the last ones
 };
 
 }  // namespace panvo::localizer

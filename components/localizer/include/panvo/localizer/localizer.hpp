@@ -177,6 +177,7 @@ class Localizer {
   struct Verdict {                                 // on a sighting
     std::string objection;                         // why it is not to be applied; empty if it is
     double chi_square = 0.0;                       // against the expected pose; 0 if that is unknown
+    double off_m = 0.0;                            // the same, horizontally
     std::optional<PendingRelocalization> asking;   // asking_ from now on
     std::optional<PendingRelocalization> dissent;  // conflicting_ from now on
     std::optional<std::int64_t> cut_ns;            // odometry missed a motion at this time
