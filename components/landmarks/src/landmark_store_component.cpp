@@ -17,6 +17,7 @@
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/landmarks/landmark_use.hpp"
+#include "panvo/landmarks/last_kept.hpp"
 #include "panvo/landmarks/map_listener.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/runtime/errors.hpp"
@@ -89,8 +90,10 @@ class LandmarkStoreComponent final : public runtime::Component {
     const auto own = std::ranges::find(runs, run_.id, &StoredRun::id);
     if (own != runs.end()) {
       resumed_ = *own;
-    } else if (!location_.is_server() && std::ranges::any_of(runs, has_own_ids)) {
-      // A database has the runs of other robots, too: which of them this is could not be told in time.
+    } else {
+      const auto is_of_other = [this](const StoredRun& run) { return component_of(run) != component_of(run_); };
+      if (location_.is_server()) std::erase_if(runs, is_of_other);  // as a database has the runs of all robots
+      if (!std::ranges::any_of(runs, has_own_ids)) return;
       finder_.emplace(std::move(runs), store_->landmarks());
       if (!finder_->is_needed()) finder_.reset();
     }
@@ -126,7 +129,11 @@ class LandmarkStoreComponent final : public runtime::Component {
     std::vector<LandmarkPose> poses;
     for (const auto& [id, pose] : heard->poses()) poses.push_back(pose);
     if (!poses.empty()) on_moved(map_->map().move(poses));
-    for (const auto& message : std::exchange(early_, {})) on_landmark(message);
+    if (early_.dropped() > 0) {
+      context_.log().warn("{} landmarks are not stored: more than {} came before it was known which run this is",
+                          early_.dropped(), early_.most());
+    }
+    for (const auto& message : early_.take()) on_landmark(message);
   }
 
   /// After a restart, the run goes on: other components still have its landmarks by the ids that they had before.
@@ -242,8 +249,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
     auto landmark = *read;
     if (finder_) {
-      early_.push_back(shared);
-      if (early_.size() > static_cast<std::size_t>(parameters_.waiting)) early_.erase(early_.begin());
+      early_.add(shared);
       if (finder_->hear(landmark)) settle();
       return;
     }
@@ -338,7 +344,8 @@ class LandmarkStoreComponent final : public runtime::Component {
   StoredRun run_;                     ///< this one
   std::optional<StoredRun> resumed_;  ///< this one as it was before a restart
   std::optional<RunFinder> finder_;   ///< until it is known whether this run is one of before
-  std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>> early_;  ///< came until then
+  LastKept<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>> early_{
+      static_cast<std::size_t>(parameters_.waiting)};  ///< came until then
   IdDisputes disputes_;
   bool has_failed_ = false;
 };

@@ -10,6 +10,8 @@ bool has_own_ids(const StoredRun& run) {
   return std::ranges::any_of(run.ids, [](const auto& ids) { return ids.first != ids.second; });
 }
 
+std::string component_of(const StoredRun& run) { return run.id.substr(std::min(run.id.find('/'), run.id.size())); }
+
 RunFinder::RunFinder(std::vector<StoredRun> runs, const std::vector<PanoramicLandmark>& stored)
     : runs_(std::move(runs)) {
   for (const auto& landmark : stored) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "panvo/landmarks/panoramic_landmark.hpp"
@@ -14,6 +15,8 @@ namespace panvo::landmarks {
 
 /// Whether the store has another id than the run for one of its landmarks.
 bool has_own_ids(const StoredRun& run);
+/// The component that stored the run's landmarks, with its namespace, which tells robots apart.
+std::string component_of(const StoredRun& run);
 
 /// Tells from what other components say whether they go on with one of the runs that a store has kept, so that they have
 /// its landmarks by the ids of that run: the process with the store may have been restarted alone, by somebody who does

@@ -24,8 +24,7 @@ class StoreRestartedAlone : public StoreLivesOfEachKind {
   }
 };
 
-// A store on a server does not look for its run.
-INSTANTIATE_TEST_SUITE_P(Each, StoreRestartedAlone, testing::Values(false),
+INSTANTIATE_TEST_SUITE_P(Each, StoreRestartedAlone, testing::Bool(),
                          [](const auto& of) { return of.param ? "Server" : "File"; });
 
 TEST_P(StoreRestartedAlone, GoesOnWithTheRunOfTheBuilder) {
@@ -74,6 +73,27 @@ TEST_P(StoreRestartedAlone, BeginsAnewWhereAnotherBuilderCountsFromOne) {
   EXPECT_EQ(store.uses().at(6).session, 2U);
 }
 
+TEST_P(StoreRestartedAlone, KeepsTheLastLandmarksUntilItsRunIsKnownAndSaysHowManyItLost) {
+  if (GetParam()) GTEST_SKIP() << "what waits for the server has the same bound";
+  const auto at_once = [](std::uint32_t id) {  // stamps tell a replay that time passes
+    auto landmark = with_id(id, made_up_landmark(10 * id));
+    landmark.stamp_ns = stamp_of(50) + id;
+    return landmark;
+  };
+  {
+    Life after(where(), "after", {{"forget_after", "0"}, {"waiting", "10"}});
+    for (std::uint32_t id = 5; id < 17; ++id) after.publish(at_once(id));
+    EXPECT_FALSE(after.harness.log_contains("landmarks are not stored"));
+    after.wait();
+    EXPECT_TRUE(after.harness.log_contains("2 landmarks are not stored: more than 10 came before"));
+  }
+  const LandmarkStore store(where());
+  EXPECT_EQ(store.size(), 15U) << "five of before";
+  std::set<std::int64_t> stamps;
+  for (const auto& landmark : store.landmarks()) stamps.insert(landmark.stamp_ns);
+  for (std::uint32_t id = 5; id < 17; ++id) EXPECT_EQ(stamps.contains(at_once(id).stamp_ns), id >= 7) << id;
+}
+
 TEST_P(StoreRestartedAlone, MovesNoLandmarkToThePlaceOfAnotherOfTheSameId) {
   const auto other = with_id(1, made_up_landmark(10));  // built before the store was there
   const auto first = made_up_landmark(1);
@@ -92,6 +112,20 @@ TEST_P(StoreRestartedAlone, MovesNoLandmarkToThePlaceOfAnotherOfTheSameId) {
     after.publish_poses({moved_by(1.0, first)});  // the localizer has heard of the store's one first
   }
   EXPECT_EQ(x_of(1), first.map_from_base.translation().x() + 1.0);
+}
+
+/// In a database that robots share.
+class StoreRestartedBesideOthers : public ServerTest {};
+
+TEST_F(StoreRestartedBesideOthers, WaitsForNoRunOfAnotherRobot) {
+  {
+    LandmarkStore store(location(), made_up_settings());
+    store.add(made_up_landmark(1));
+    store.begin_run({"before/other_robot/landmarks", 1, 0, {}});
+    store.add(with_id(1, made_up_landmark(30)), IfTaken::kNextId);
+  }
+  const Life after(StoreLocation(location()), "after");
+  EXPECT_THAT(after.distinct_ids(), UnorderedElementsAre(Pair(1U, stamp_of(1)), Pair(2U, stamp_of(30))));
 }
 
 }  // namespace
