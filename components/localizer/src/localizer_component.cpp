@@ -76,6 +76,7 @@ class LocalizerComponent final : public runtime::Component {
     localizer_.set_clock_back(by_ns);
     if (by_ns > 0) *begin_ns_ -= by_ns;  // else landmarks of this journey may still come with earlier stamps
     azimuth_ns_.reset();
+    is_panorama_time_told_ = false;
     waiting_.clear();
     satellites_.forget_stamps();
     publisher_.forget_stamps();
@@ -227,9 +228,8 @@ class LocalizerComponent final : public runtime::Component {
   void take(const AzimuthMeasurement& azimuth) {
     const auto use = localizer_.add(azimuth);
     if (use == AzimuthUse::kNotUsed) {
-      ++unused_;
       // A single panorama may lack odometry; if all do, a clock is wrong.
-      if (unused_ > 10) {
+      if (++unused_ > 10) {
         context_.log().warn_throttled(
             "panoramas behind",
             "panorama stamps are {:.1f} s behind {}: camera clocks are not synchronised; corrections disabled",
@@ -245,9 +245,8 @@ class LocalizerComponent final : public runtime::Component {
                                     "the panoramic camera rotated on its mount?");
     }
     const bool is_contradicted = use == AzimuthUse::kContradicted;
-    if (is_contradicted && !was_contradicted_) {
+    if (is_contradicted && !was_contradicted_)
       context_.log().warn("stereo odometry and compass disagree on the rotation: using the compass");
-    }
     was_contradicted_ = is_contradicted;
     notices_.report_clock(localizer_, azimuth.to_ns, use);
     publish_panorama_time(azimuth.to_ns);
@@ -280,15 +279,16 @@ class LocalizerComponent final : public runtime::Component {
     }
   }
 
-  /// The panoramic camera's clock, once it is known, and when its offset has changed. Landmarks have moved with it.
+  /// The panoramic camera's clock, once it is known, again after the odometry's was set, and when its offset has changed.
   void publish_panorama_time(std::int64_t panorama_ns) {
     if (!localizer_.is_clock_known()) return;
     const std::int64_t ahead_ns = localizer_.panorama_clock().estimate_ns();
-    const bool has_changed = std::abs(ahead_ns - panorama_ahead_ns_.value_or(0)) >= kNotableOffset_ns;
-    if (panorama_ahead_ns_ && !has_changed) return;
+    const bool has_changed = std::abs(ahead_ns - panorama_ahead_ns_) >= kNotableOffset_ns;
+    if (is_panorama_time_told_ && !has_changed) return;
+    is_panorama_time_told_ = true;
     panorama_ahead_ns_ = ahead_ns;
     panorama_time_.publish(to_time_reference(panorama_ns - ahead_ns, panorama_ns));
-    if (has_changed) publish_landmarks(panorama_ns);
+    if (has_changed) publish_landmarks(panorama_ns);  // they have moved with it
     has_learned_ |= has_changed;
   }
 
@@ -339,8 +339,9 @@ class LocalizerComponent final : public runtime::Component {
   std::int64_t odometry_at_ns_ = 0;       // arrival of the last message
   std::shared_ptr<const nav_msgs::msg::Odometry> last_odometry_;
   std::optional<std::int64_t> azimuth_ns_;
-  std::optional<std::int64_t> panorama_ahead_ns_;  // as published
-  bool has_learned_ = false;                       // not published yet
+  std::int64_t panorama_ahead_ns_ = 0;  // as published
+  bool is_panorama_time_told_ = false;  // since the clock was set
+  bool has_learned_ = false;            // not published yet
   int unused_ = 0;
   bool was_contradicted_ = false;
 };

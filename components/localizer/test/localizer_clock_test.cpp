@@ -80,16 +80,17 @@ class LocalizerOnAWindingRoad : public LocalizerOnTopics {
  protected:
   static double yaw(int frame) { return 0.3 * std::sin(0.05 * frame); }
 
-  /// Drives; panoramas, ahead by so much, arrive 0.8 s late.
-  void wind(int from, int to, std::int64_t ahead_ns) {
+  /// Drives; panoramas, ahead by so much, arrive 0.8 s late. All clocks are `back_frames` behind.
+  void wind(int from, int to, std::int64_t ahead_ns, int back_frames = 0) {
     const vision::Matrix6d gained = 1e-7 * vision::Matrix6d::Identity();
     for (int i = from; i < to; ++i) {
       const auto pose = at(0.2 * i, 0.0, yaw(i));
       covariance_ = vision::compose_covariance(before_, covariance_, before_.inverse() * pose, gained);
-      publish_odometry(i, pose, covariance_);
+      publish_odometry(i - back_frames, pose, covariance_);
       before_ = pose;
-      if (i < 25 || i % 5 != 0) continue;
-      publish_azimuth(stamp(i - 25) + ahead_ns, stamp(i - 20) + ahead_ns, yaw(i - 20) - yaw(i - 25));
+      if (i - from < 25 || i % 5 != 0) continue;
+      publish_azimuth(stamp(i - back_frames - 25) + ahead_ns, stamp(i - back_frames - 20) + ahead_ns,
+                      yaw(i - 20) - yaw(i - 25));
       is_told_early_ |= references_.empty() && harness_.log_contains("of the stereo camera's");
     }
   }
@@ -128,6 +129,18 @@ TEST_F(LocalizerOnAWindingRoad, TellsTheTimeOfThePanoramicCameraOnceItIsKnownToB
   const std::int64_t ahead_ns = conversions::to_ns(references_[0]->time_ref()) - conversions::stamp_ns(*references_[0]);
   EXPECT_NEAR(static_cast<double>(ahead_ns), 0.0, 1e7);
   EXPECT_FALSE(harness_.log_contains("of the stereo camera's"));
+}
+
+TEST_F(LocalizerOnAWindingRoad, TellsTheTimeOfThePanoramicCameraAgainAfterAllClocksWereSetBack) {
+  load();
+  wind(0, 400, 200'000'000);
+  ASSERT_THAT(references_, SizeIs(1));
+  wind(400, 450, 200'000'000, 200);
+  EXPECT_THAT(references_, SizeIs(1)) << "before it is known to be the same";
+  wind(450, 800, 200'000'000, 200);
+  ASSERT_THAT(references_, SizeIs(2));
+  const std::int64_t ahead_ns = conversions::to_ns(references_[1]->time_ref()) - conversions::stamp_ns(*references_[1]);
+  EXPECT_NEAR(static_cast<double>(ahead_ns), 2e8, 1e7);
 }
 
 TEST_F(LocalizerOnAWindingRoad, SaysThatThePanoramasTurnAtNoOffsetOfTheirClock) {
