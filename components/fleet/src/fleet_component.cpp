@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +22,7 @@
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/id_disputes.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/landmarks/last_kept.hpp"
 #include "panvo/landmarks/map_listener.hpp"
 #include "panvo/landmarks/panorama_level.hpp"
 #include "panvo/position_corrector/spilled_landmarks.hpp"
@@ -126,9 +126,8 @@ class FleetComponent final : public runtime::Component {
 
   /// The last one of each id, and not too many.
   void keep_refused(const landmarks::PanoramicLandmark& landmark) {
-    std::erase_if(since_refused_, [&](const auto& kept) { return kept.id == landmark.id; });
-    since_refused_.push_back(landmark);
-    if (since_refused_.size() > kMaxRefused) since_refused_.pop_front();
+    since_refused_.forget_if([&](const auto& kept) { return kept.id == landmark.id; });
+    since_refused_.add(landmark);
   }
 
   void add(landmarks::PanoramicLandmark landmark) {
@@ -147,7 +146,7 @@ class FleetComponent final : public runtime::Component {
       is_of_this_map |= is_own && disputes_.is_disputed(pose.id);
     }
     if (is_of_another_map) return start_new_map(moved);
-    if (is_of_this_map) since_refused_.clear();
+    if (is_of_this_map) since_refused_.take();
     fleet_->move_places(moved);
   }
 
@@ -165,7 +164,11 @@ class FleetComponent final : public runtime::Component {
     disputes_ = {};
     map_.map() = {};
     map_.map().move(poses);
-    for (auto& landmark : std::exchange(since_refused_, {})) add(std::move(landmark));
+    if (since_refused_.dropped() > 0) {
+      context_.log().warn("{} of its landmarks are not shared: more than {} came before it was known to be new",
+                          since_refused_.dropped(), since_refused_.most());
+    }
+    for (auto& landmark : since_refused_.take()) add(std::move(landmark));
   }
 
   /// A pose that is not known in the own map says nothing of other maps.
@@ -340,7 +343,8 @@ class FleetComponent final : public runtime::Component {
   conversions::TransformListener transforms_;
   landmarks::MapListener map_;
   landmarks::IdDisputes disputes_;
-  std::deque<landmarks::PanoramicLandmark> since_refused_;  // the first one of the id of another one, and all after it
+  // The first one of the id of another one, and all after it.
+  landmarks::LastKept<landmarks::PanoramicLandmark> since_refused_{kMaxRefused};
 
   Eigen::Isometry3d base_from_panorama_ = Eigen::Isometry3d::Identity();
   landmarks::PanoramaLevel level_;

@@ -88,6 +88,18 @@ class Drives final : public runtime::Component, public runtime::Source {
       });
     }
   }
+  /// Landmarks that look like the first place, with ids from `first_id` on.
+  void repeat_landmark(const std::string& robot, std::uint32_t first_id, int count, double t_s) {
+    static const PaintedRoad road(kPlaces);
+    static const landmarks::PanoramaDescriber describer({}, 1);
+    auto output = context_.output(interfaces::Topic<panvo_msgs::msg::PanoramicLandmark>{"/" + robot + "/landmarks"});
+    auto landmark = road.landmark(0, first_id, flat(500, 0, 0), describer);
+    landmark.stamp_ns = stamp_ns(t_s);
+    auto message = landmarks::to_message(landmark, landmarks::landmark_settings({}, {}, 1), "map");
+    at(t_s, [=]() mutable {
+      for (int i = 0; i < count; ++i, message.id(message.id() + 1)) output.publish(message);
+    });
+  }
   /// The localizer of a robot has the first places there.
   void say_poses(const std::string& robot, const Eigen::Isometry3d& map_from_world, double t_s, int places = 1) {
     auto output = context_.output(interfaces::Topic<panvo_msgs::msg::LandmarkPoses>{"/" + robot + "/landmarks/poses"});
@@ -258,6 +270,19 @@ TEST_F(FleetOfComponents, SharesTheMapThatItsRobotHasBegunAnew) {
   const auto two_from_one = conversions::to_isometry(one->map_from_peer().pose());
   ASSERT_TRUE(two_from_one);
   EXPECT_LT(vision::pose_error(*two_from_one * second, map_of_two).norm(), 0.1);
+}
+
+/// More than a hundred landmarks before the localizer says that they are of another map.
+TEST_F(FleetOfComponents, SaysHowManyLandmarksOfANewMapItLost) {
+  load("one", "one");
+  drives_->pause(0.0, 30.0);
+  drives_->drive("one", flat(0, 0, 0), 1.0);
+  drives_->drive("one", flat(500, 0, 0), 10.0);
+  drives_->repeat_landmark("one", 1000, 97, 15.0);
+  drives_->say_poses("one", flat(500, 0, 0), 16.0);
+  ASSERT_THAT(harness_.container().run(), IsEmpty());
+  EXPECT_TRUE(harness_.log_contains("has started a new map"));
+  EXPECT_TRUE(harness_.log_contains("2 of its landmarks are not shared: more than 100 came before"));
 }
 
 TEST_F(FleetOfComponents, SurvivesAnInvalidMessage) {
