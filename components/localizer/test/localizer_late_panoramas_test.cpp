@@ -123,6 +123,20 @@ TEST(LocalizerWithLatePanoramas, LearnsOfTheOdometryAsIfTheyWereNotLate) {
   }
 }
 
+TEST(LocalizerWithLatePanoramas, UsesNoTurnsFromBeforeTheirClockWasKnownThatContradictTheOdometry) {
+  Winding vehicle;
+  vehicle.drive(0, 50, 0.0);
+  vehicle.azimuth_error_rad = 0.15;
+  vehicle.drive(50, 80, 0.0);
+  ASSERT_FALSE(vehicle.localizer.is_clock_known());
+  vehicle.azimuth_error_rad = 0.0;
+  vehicle.drive(80, 500, 0.0);
+  ASSERT_TRUE(vehicle.localizer.is_clock_known());
+  const auto& here = vehicle.localizer.latest();
+  EXPECT_NEAR(yaw_of(here.map_from_base.linear()), Winding::yaw(Winding::time_s(499)), 0.005);
+  EXPECT_LT(std::sqrt(here.covariance(5, 5)), 0.01);
+}
+
 /// The latency of a stream changes by less than it is.
 TEST(LocalizerWithLatePanoramas, DoubtsTheClockWhenALargeOffsetChanges) {
   Winding vehicle;

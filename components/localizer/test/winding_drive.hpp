@@ -40,14 +40,15 @@ struct Winding {
       localizer.add(odometry);
       if (i % 5 != 0 || i < first) continue;
       const double taken = t - kLate_s, since = 0.2 * (1 + (i / 5) % panoramas_per_reference);
-      uses.push_back(localizer.add(
-          AzimuthMeasurement{ns(taken - since + ahead_s), ns(taken + ahead_s), yaw(taken) - yaw(taken - since), 1e-6}));
+      uses.push_back(localizer.add(AzimuthMeasurement{ns(taken - since + ahead_s), ns(taken + ahead_s),
+                                                      yaw(taken) - yaw(taken - since) + azimuth_error_rad, 1e-6}));
     }
   }
 
   double step_variance = 4e-8;      // of the odometry
   int panoramas_per_reference = 1;  // consecutive
-  int first = 40;                   // frame with a panorama
+  double azimuth_error_rad = 0.0;
+  int first = 40;  // frame with a panorama
 
   Localizer localizer{Parameters{}};
   OdometryPose odometry{};  // last
