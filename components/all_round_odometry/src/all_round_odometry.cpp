@@ -234,11 +234,11 @@ void AllRoundOdometry::learn_rotation(const PanoramaPoints& received) {
 void AllRoundOdometry::measure(const PanoramaPoints& panorama, std::int64_t before_ns) {
   if (!last_ || last_->stamp_ns != before_ns) return;
   const double interval_s = seconds(before_ns, panorama.stamp_ns);
-  PanoramicMotion measured = motion_;
-  const auto step = measured.measure(panorama, vision::se3_exp(twist_ * interval_s));
+  PanoramicMotion motion = motion_;
+  const auto step = motion.measure(panorama, vision::se3_exp(twist_ * interval_s));
   // Distances that were learned at other times fit few points.
   if (step && is_clock_doubtful_ && step->agreeing_share < kContradicted) return;
-  motion_ = std::move(measured);
+  motion_ = std::move(motion);
   if (!step) return;
   if (!blind_) blind_ = Blind{last_->odometry, {}, 0.0};
   blind_->scale_variance = step->scale_variance;

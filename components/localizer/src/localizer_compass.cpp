@@ -60,7 +60,7 @@ AzimuthUse Localizer::use(const AzimuthMeasurement& received) {
   const CrossCheck::Disagreement turns{
       disagreement, is_contradicted,
       is_contradicted && check_.shows_turned_mount(chain_, stretch, azimuth, disagreement, way_variance_m2)};
-  if (is_contradicted && is_using_again_) return AzimuthUse::kUnclear;  // as when it came
+  if (is_contradicted && is_using_again_) return AzimuthUse::kUnclear;  // wrong, or the odometry is
   const bool may_be_of_clock = is_contradicted && !turns.is_of_mount;
   if (from_ns < clock_found_ns_ || (may_be_of_clock && may_be_of_another_time(azimuth, kAgree * std::sqrt(spread)))) {
     azimuth_ns_ = to_ns;

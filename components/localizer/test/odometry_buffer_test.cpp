@@ -183,7 +183,7 @@ TEST(OdometryBuffer, UndoesTheTurnsOfACompassButNotWhatElseIsKnownOfAStretch) {
   EXPECT_NEAR(chain.latest().pose.covariance(1, 1), expected.latest().pose.covariance(1, 1), 1e-3);
   EXPECT_GT(chain.latest().pose.covariance(1, 1), 0.04) << "what a stretch was doubted for stays";
   chain.revert();
-  EXPECT_NEAR(chain.turn(kEach_ns, 4 * kEach_ns)->change_rad, 0.0, 1e-12) << "there is no return to the compass";
+  EXPECT_NEAR(chain.turn(kEach_ns, 4 * kEach_ns)->change_rad, 0.0, 1e-12) << "the undone turns are not restored";
 }
 
 TEST(OdometryBuffer, TellsWhatSystematicErrorsOfTheTurnsDoToPositionAndHeading) {

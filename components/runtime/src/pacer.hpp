@@ -71,7 +71,7 @@ class Pacer final : public Playback {
   std::atomic<std::int64_t> reached_ns_ = kNever;
   std::atomic<bool> is_at_end_ = false;
   std::mutex seeking_mutex_;          // locked before the others
-  mutable std::mutex sources_mutex_;  // not held while a change is told: who hears of it may ask for the range
+  mutable std::mutex sources_mutex_;  // released before `changed_`, whose callee may call range()
   std::vector<Source*> sources_;
   std::mutex telling_mutex_;
   std::function<void()> changed_ = [] {}, moved_ = [] {};

@@ -60,7 +60,7 @@ int refuse_passphrase(char*, int, int, void*) { return -1; }
 void read_certificate(SSL_CTX* context, const std::filesystem::path& file) {
   require_readable(kCertificate, file);
   if (SSL_CTX_use_certificate_chain_file(context, file.c_str()) != 1)
-    fail(kCertificate, file, "is no usable certificate in PEM format (" + reason() + ")");
+    fail(kCertificate, file, "is not a usable certificate in PEM format (" + reason() + ")");
   const auto* const end = X509_get0_notAfter(SSL_CTX_get0_certificate(context));
   if (X509_cmp_current_time(end) < 0)
     fail(kCertificate, file, "expired on " + text_of(end) + "; renew it, or correct the clock of this computer");
@@ -72,7 +72,7 @@ void read_key(SSL_CTX* context, const TlsFiles& files) {
   SSL_CTX_set_default_passwd_cb(context, refuse_passphrase);
   const bool is_read = SSL_CTX_use_PrivateKey_file(context, files.key.c_str(), SSL_FILETYPE_PEM) == 1;
   if (!is_read && ERR_GET_REASON(ERR_peek_last_error()) != X509_R_KEY_VALUES_MISMATCH)
-    fail(kKey, files.key, "is no usable private key in PEM format without a passphrase (" + reason() + ")");
+    fail(kKey, files.key, "is not a usable private key in PEM format without a passphrase (" + reason() + ")");
   if (!is_read || SSL_CTX_check_private_key(context) != 1)
     fail(kKey, files.key,
          "is not the key of " + std::string(kCertificate) + " " + files.certificate.string() +

@@ -46,8 +46,8 @@ TEST(TlsContext, SaysWhatIsWrongWithItsFiles) {
                 "; name files that were made together");
   EXPECT_THAT(why_refused({old.certificate, old.key}),
               MatchesRegex("tls_certificate .*: expired on 20..-..-.. ..:.. UTC; renew it, or correct the clock.*"));
-  EXPECT_THAT(why_refused({rubbish, good.key}), HasSubstr("is no usable certificate in PEM format"));
-  EXPECT_THAT(why_refused({good.certificate, rubbish}), HasSubstr("is no usable private key in PEM format"));
+  EXPECT_THAT(why_refused({rubbish, good.key}), HasSubstr("is not a usable certificate in PEM format"));
+  EXPECT_THAT(why_refused({good.certificate, rubbish}), HasSubstr("is not a usable private key in PEM format"));
   ::chmod(good.key.c_str(), 0640);
   EXPECT_THAT(why_refused({good.certificate, good.key}),
               AllOf(HasSubstr("readable by other users"), HasSubstr("chmod 600 " + good.key.string())));

@@ -154,7 +154,7 @@ TEST_F(TlsFrontTest, AnswersPlainHttp) {
 TEST_F(TlsFrontTest, ClosesAClientThatSendsRubbish) {
   start();
   const auto client = plain_stream(front_->port(), 0);
-  client->send(bytes_of("rubbish that is no handshake"));
+  client->send(bytes_of("not a TLS handshake"));
   read_all(*client);
   EXPECT_TRUE(is_warned("no TLS: wrong version number"));
   EXPECT_TRUE(is_served());

@@ -56,8 +56,9 @@ void NodeGraph::open_writer(const std::shared_ptr<Participant>& participant) {
 
 void NodeGraph::open_reader(const std::shared_ptr<Participant>& participant) {
   if (reader_) return;
-  // A participant tells its nodes anew with each endpoint that it opens, at least ten times per ROS 2 node: a robot that
-  // starts exceeds the limit of a topic. Without a participant's last message, its nodes would never be listed.
+  // A participant publishes the list of its nodes again with each endpoint that it opens, at least ten times per ROS 2
+  // node: a robot that starts exceeds the limit of a topic. Without a participant's last message, its nodes would never
+  // be listed.
   reader_ = std::make_unique<Reader>(
       topic(kReaderQos), wire(), [this](const SamplePtr& sample) { take(sample); }, participant, notifier_,
       Reader::Rate::kAny);

@@ -73,9 +73,9 @@ class ClockSearch {
 class ClockDoubt {
  public:
   /// A turn that contradicts the reference sensor's, with stamps of the other clock, so far ahead by `known_ahead_ns`.
-  /// Returns whether another offset, up to ClockSearch::kUsual_s from that, explains it and all others since the last agreement, by turns of the reference sensor
-  /// up to `latest_ns` or a little later. A turn that began before that agreement may have its first stamp from before
-  /// the clock was set.
+  /// Returns whether another offset, up to ClockSearch::kUsual_s from that, explains it and all others since the last
+  /// agreement, by turns of the reference sensor up to `latest_ns` or a little later. A turn that began before that
+  /// agreement may have its first stamp from before the clock was set.
   bool add(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double within_rad, std::int64_t known_ahead_ns,
            std::int64_t latest_ns, const ClockSearch::Reference& reference);
   /// The turns agree up to this stamp of the other clock.
