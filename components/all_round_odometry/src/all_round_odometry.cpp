@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "panvo/vision/seconds.hpp"
@@ -14,7 +13,6 @@ namespace {
 
 // Longer than a panorama serves as reference, by a clock that may be off to both sides.
 constexpr double kHistory_s = 6.0 + 2.0 * vision::ClockSearch::kFarthest_s;
-constexpr double kMaxGap_s = 0.5;  // between two stereo poses: a vehicle may turn within a longer one
 // Share of the points that agree with the stereo odometry: it is usually above 0.8. Fewer contradict it, if clearly more
 // agree on another motion.
 constexpr double kContradicted = 0.6, kClearly = 0.25;
@@ -48,7 +46,7 @@ bool AllRoundOdometry::add(const StereoPose& received) {
   }
   const StereoPose stereo = on_path == vision::OnPath::kRestarted ? begin_anew(received) : received;
   const bool has_panoramas = panorama_ns_ && seconds(*panorama_ns_, stereo.stamp_ns) < parameters_.patience_s;
-  stereo_.push_back(stereo);
+  stereo_.add(stereo);
   is_stereo_silent_ = false;
   if (blind_ || held_ > 0 || (!stereo.is_reliable && has_panoramas)) {
     ++held_;
@@ -59,7 +57,7 @@ bool AllRoundOdometry::add(const StereoPose& received) {
   process();
   while (stereo_.size() > kMaxStereo ||
          (stereo_.size() > held_ + 1 && seconds(stereo_.front().stamp_ns, stereo.stamp_ns) > kHistory_s)) {
-    stereo_.pop_front();
+    stereo_.remove_first();
     held_ = std::min(held_, stereo_.size());
   }
   return true;
@@ -126,7 +124,7 @@ void AllRoundOdometry::forget_panoramas() {
 
 vision::ClockSearch::Reference AllRoundOdometry::turns_of_stereo() const {
   return [this](std::int64_t from_ns, std::int64_t to_ns) -> std::optional<vision::ClockSearch::Turn> {
-    const auto step = measured(from_ns, to_ns);
+    const auto step = stereo_.measured(from_ns, to_ns);
     if (!step) return std::nullopt;
     return vision::ClockSearch::Turn{vision::so3_log(step->linear()).z(), kTurnSigma_rad * kTurnSigma_rad};
   };
@@ -167,7 +165,7 @@ void AllRoundOdometry::process(const PanoramaPoints& received) {
   doubt_clock(received);
   const PanoramaPoints panorama = turned(received, camera_rotation_.base_from_stated());
   const std::int64_t before_ns = motion_.before_ns(panorama);
-  const auto step = measured(before_ns, panorama.stamp_ns);
+  const auto step = stereo_.measured(before_ns, panorama.stamp_ns);
   const bool is_stereo_wrong = step && is_contradicted(panorama, *step, before_ns);
   if (step) is_contradicted_ = is_stereo_wrong;
   if (step && !is_stereo_wrong) {
@@ -208,9 +206,9 @@ void AllRoundOdometry::learn(const PanoramaPoints& panorama, std::int64_t before
   motion_.learn(panorama, step);
   twist_ = vision::se3_log(step) / seconds(before_ns, panorama.stamp_ns);
   if (!blind_) {
-    last_ = PanoramaPose{panorama.stamp_ns, shifted(*stereo_at(panorama.stamp_ns))};
+    last_ = PanoramaPose{panorama.stamp_ns, shifted(*stereo_.at(panorama.stamp_ns))};
   } else if (last_->stamp_ns == before_ns) {
-    const auto before = *stereo_at(before_ns), now = *stereo_at(panorama.stamp_ns);
+    const auto before = *stereo_.at(before_ns), now = *stereo_.at(panorama.stamp_ns);
     advance(step,
             vision::step_covariance(before.odom_from_base, before.covariance, now.odom_from_base, now.covariance));
     last_ = PanoramaPose{panorama.stamp_ns, blind_pose()};
@@ -220,7 +218,7 @@ void AllRoundOdometry::learn(const PanoramaPoints& panorama, std::int64_t before
 /// Learns the rotation of the camera from the stereo odometry's motion since the reference.
 void AllRoundOdometry::learn_rotation(const PanoramaPoints& received) {
   const PointTracks& tracks = received.tracks.front();
-  const auto then_from_now = measured(tracks.from_ns, received.stamp_ns);
+  const auto then_from_now = stereo_.measured(tracks.from_ns, received.stamp_ns);
   if (!then_from_now) return;
   const Eigen::Matrix3d& base_from_stated = camera_rotation_.base_from_stated();
   const Eigen::Matrix3d seen = base_from_stated * received.now_from_then.transpose() * base_from_stated.transpose();
@@ -245,7 +243,7 @@ void AllRoundOdometry::measure(const PanoramaPoints& panorama, std::int64_t befo
   advance(step->before_from_now, step->covariance);
   twist_ = vision::se3_log(step->before_from_now) / interval_s;
   last_ = PanoramaPose{panorama.stamp_ns, blind_pose()};
-  held_ = std::min(held_, stereo_.size() - first_from(panorama.stamp_ns + 1));
+  held_ = std::min(held_, stereo_.size() - stereo_.first_from(panorama.stamp_ns + 1));
   if (panorama.stamp_ns <= emitted_ns_) return;
   ready_.push_back(
       {panorama.stamp_ns, last_->odometry.odom_from_base, last_->odometry.covariance, true, step->agreeing_share});
@@ -262,12 +260,12 @@ void AllRoundOdometry::advance(const Eigen::Isometry3d& before_from_now, const v
 /// Ends the blind stretch at a panorama if the stereo odometry measures again.
 void AllRoundOdometry::return_to_stereo(std::int64_t stamp_ns) {
   if (last_->stamp_ns != stamp_ns) return;
-  const std::size_t after = first_from(stamp_ns);
-  const auto stereo = stereo_at(stamp_ns);
+  const std::size_t after = stereo_.first_from(stamp_ns);
+  const auto stereo = stereo_.at(stamp_ns);
   if (!stereo || !stereo_[after].is_reliable) return;
   shift_ = Shift{*stereo, last_->odometry};
   blind_.reset();
-  held_ = std::min(held_, stereo_.size() - first_from(stamp_ns + 1));
+  held_ = std::min(held_, stereo_.size() - stereo_.first_from(stamp_ns + 1));
   emit_held();
 }
 
@@ -276,7 +274,7 @@ void AllRoundOdometry::give_up() {
   if (blind_) {
     // The motion since the last panorama is that of the stereo odometry, if that was not silent.
     const StereoPose& first = stereo_[stereo_.size() - held_];
-    const auto there = stereo_at(last_->stamp_ns);
+    const auto there = stereo_.at(last_->stamp_ns);
     shift_ = Shift{there.value_or(Pose{first.odom_from_base, first.covariance}), last_->odometry};
     blind_.reset();
   }
@@ -301,7 +299,7 @@ void AllRoundOdometry::emit_held() {
   }
 }
 
-auto AllRoundOdometry::shifted(const Pose& stereo) const -> Pose {
+Pose AllRoundOdometry::shifted(const Pose& stereo) const {
   if (!shift_) return stereo;
   const Eigen::Isometry3d moved = shift_->stereo.odom_from_base.inverse() * stereo.odom_from_base;
   const vision::Matrix6d gained = vision::step_covariance(shift_->stereo.odom_from_base, shift_->stereo.covariance,
@@ -310,7 +308,7 @@ auto AllRoundOdometry::shifted(const Pose& stereo) const -> Pose {
           vision::compose_covariance(shift_->odometry.odom_from_base, shift_->odometry.covariance, moved, gained)};
 }
 
-auto AllRoundOdometry::blind_pose() const -> Pose {
+Pose AllRoundOdometry::blind_pose() const {
   const Eigen::Isometry3d& moved = blind_->begin_from_last.odom_from_base;
   vision::Matrix6d covariance = blind_->begin_from_last.covariance;
   const Eigen::Matrix3d sideways = vision::skew(moved.translation());
@@ -318,36 +316,6 @@ auto AllRoundOdometry::blind_pose() const -> Pose {
                                       sideways * camera_rotation_.covariance() * sideways.transpose();
   return {blind_->begin.odom_from_base * moved,
           vision::compose_covariance(blind_->begin.odom_from_base, blind_->begin.covariance, moved, covariance)};
-}
-
-/// Index of the first stereo pose not before a time.
-std::size_t AllRoundOdometry::first_from(std::int64_t stamp_ns) const {
-  const auto found = std::ranges::lower_bound(stereo_, stamp_ns, {}, &StereoPose::stamp_ns);
-  return static_cast<std::size_t>(std::distance(stereo_.begin(), found));
-}
-
-auto AllRoundOdometry::stereo_at(std::int64_t stamp_ns) const -> std::optional<Pose> {
-  const std::size_t after = first_from(stamp_ns);
-  if (after == stereo_.size()) return std::nullopt;
-  const StereoPose& b = stereo_[after];
-  if (b.stamp_ns == stamp_ns) return Pose{b.odom_from_base, b.covariance};
-  if (after == 0) return std::nullopt;
-  const StereoPose& a = stereo_[after - 1];
-  const double share = seconds(a.stamp_ns, stamp_ns) / seconds(a.stamp_ns, b.stamp_ns);
-  return Pose{vision::interpolate(a.odom_from_base, b.odom_from_base, share),
-              (1.0 - share) * a.covariance + share * b.covariance};
-}
-
-/// The motion between two times if the stereo odometry measured all of it.
-std::optional<Eigen::Isometry3d> AllRoundOdometry::measured(std::int64_t from_ns, std::int64_t to_ns) const {
-  const auto from = stereo_at(from_ns), to = stereo_at(to_ns);
-  if (!from || !to || from_ns >= to_ns) return std::nullopt;
-  const std::size_t last = first_from(to_ns);
-  for (std::size_t i = first_from(from_ns + 1); i <= last; ++i) {
-    if (!stereo_[i].is_reliable || seconds(stereo_[i - 1].stamp_ns, stereo_[i].stamp_ns) > kMaxGap_s)
-      return std::nullopt;
-  }
-  return from->odom_from_base.inverse() * to->odom_from_base;
 }
 
 }  // namespace panvo::all_round_odometry

@@ -26,11 +26,11 @@
 #include "store_writer.hpp"
 
 namespace panvo::landmarks {
-namespace {
 
 /// Publishes the landmarks of a store at start, and stores new and moved ones. Poses are updated by landmarks/poses,
-/// all in one transaction, or by a landmark that is received again. A database is written by another thread. From odometry/enhanced and correction/outcome it counts
-/// which landmarks are recognised, and lets the map follow what has changed (see landmark_use.hpp).
+/// all in one transaction, or by a landmark that is received again. A database is written by another thread. From
+/// odometry/enhanced and correction/outcome it counts which landmarks are recognised, and lets the map follow what has
+/// changed (see landmark_use.hpp).
 class LandmarkStoreComponent final : public runtime::Component {
  public:
   explicit LandmarkStoreComponent(runtime::Context& context)
@@ -91,11 +91,8 @@ class LandmarkStoreComponent final : public runtime::Component {
     if (own != runs.end()) {
       resumed_ = *own;
     } else {
-      const auto is_of_other = [this](const StoredRun& run) { return component_of(run) != component_of(run_); };
-      if (location_.is_server()) std::erase_if(runs, is_of_other);  // as a database has the runs of all robots
-      if (!std::ranges::any_of(runs, has_own_ids)) return;
-      finder_.emplace(std::move(runs), store_->landmarks());
-      if (!finder_->is_needed()) finder_.reset();
+      if (location_.is_server()) keep_of_component(runs, run_);  // as a database has the runs of all robots
+      finder_ = RunFinder::among(std::move(runs), *store_);
     }
   }
 
@@ -150,8 +147,7 @@ class LandmarkStoreComponent final : public runtime::Component {
 
   void publish(const LandmarkStore& store) {
     const auto uses = parameters_.read_only ? std::map<std::uint32_t, LandmarkUse>() : store.uses();
-    std::map<std::uint32_t, std::uint32_t> own;  // ids in this run of those that it added
-    for (const auto& [in_run, in_store] : run_.ids) own.emplace(in_store, in_run);
+    const auto own = run_.own_ids();
     std::size_t loaded = 0;
     const auto tell = [&](const std::string& problem) {
       context_.log().warn("{}: {}: skipped. Remedy: run panvo landmarks info --check; restore a copy{}", store.name(),
@@ -162,8 +158,7 @@ class LandmarkStoreComponent final : public runtime::Component {
       const auto found = own.find(stored_id);
       const bool is_own = found != own.end();
       if (is_own) landmark.id = found->second;
-      // Another robot added it since the run began, which may have its id for a landmark of its own.
-      if (!is_own && !parameters_.read_only && (stored_id > run_.last_id || run_.ids.contains(stored_id))) return;
+      if (!is_own && !parameters_.read_only && run_.may_have_other_of_id(stored_id)) return;
       try {
         landmark.keypoints = store.keypoints(stored_id);  // the thumbnail, for display only, is not published
       } catch (const StoreUnavailable&) {
@@ -174,10 +169,8 @@ class LandmarkStoreComponent final : public runtime::Component {
       map_->map().add(landmark);
       const auto found_use = uses.find(stored_id);
       const auto use = found_use == uses.end() ? LandmarkUse{} : found_use->second;
-      auto before = use;
-      // What this drive has missed since it began counts once, with the next miss.
-      if (const auto missed = run_.missed.find(stored_id); missed != run_.missed.end()) before.missed = missed->second;
-      remember(map_->map().pose(landmark.id), use, is_own ? std::nullopt : std::optional(before));
+      const auto before = is_own ? std::nullopt : std::optional(run_.use_before(stored_id, use));
+      remember(map_->map().pose(landmark.id), use, before);
       // The topic is latched, so subscribers may join later.
       output_.publish(to_message(landmark, store.settings(), parameters_.map_frame));
       ++loaded;
@@ -350,10 +343,6 @@ class LandmarkStoreComponent final : public runtime::Component {
   bool has_failed_ = false;
 };
 
-}  // namespace
-}  // namespace panvo::landmarks
-
-namespace {
-using panvo::landmarks::LandmarkStoreComponent;
-}
 PANVO_REGISTER_COMPONENT(LandmarkStoreComponent)
+
+}  // namespace panvo::landmarks

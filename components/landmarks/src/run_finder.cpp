@@ -2,15 +2,32 @@
 #include "run_finder.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace panvo::landmarks {
+namespace {
 
+/// Whether the store has another id than the run for one of its landmarks.
 bool has_own_ids(const StoredRun& run) {
   return std::ranges::any_of(run.ids, [](const auto& ids) { return ids.first != ids.second; });
 }
 
+/// The component that stored the run's landmarks, with its namespace.
 std::string component_of(const StoredRun& run) { return run.id.substr(std::min(run.id.find('/'), run.id.size())); }
+
+}  // namespace
+
+void keep_of_component(std::vector<StoredRun>& runs, const StoredRun& own) {
+  std::erase_if(runs, [&](const StoredRun& run) { return component_of(run) != component_of(own); });
+}
+
+std::optional<RunFinder> RunFinder::among(std::vector<StoredRun> runs, const LandmarkStore& store) {
+  if (!std::ranges::any_of(runs, has_own_ids)) return std::nullopt;
+  RunFinder finder(std::move(runs), store.landmarks());
+  if (!finder.is_needed()) return std::nullopt;
+  return finder;
+}
 
 RunFinder::RunFinder(std::vector<StoredRun> runs, const std::vector<PanoramicLandmark>& stored)
     : runs_(std::move(runs)) {

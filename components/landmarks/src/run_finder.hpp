@@ -5,18 +5,16 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
 #include "panvo/landmarks/stored_run.hpp"
 
 namespace panvo::landmarks {
 
-/// Whether the store has another id than the run for one of its landmarks.
-bool has_own_ids(const StoredRun& run);
-/// The component that stored the run's landmarks, with its namespace, which tells robots apart.
-std::string component_of(const StoredRun& run);
+/// Keeps the runs of the component that stores the landmarks of `own`: its namespace tells robots apart.
+void keep_of_component(std::vector<StoredRun>& runs, const StoredRun& own);
 
 /// Tells from what other components say whether they go on with one of the runs that a store has kept, so that they have
 /// its landmarks by the ids of that run: the process with the store may have been restarted alone, by somebody who does
@@ -26,11 +24,8 @@ class RunFinder {
   /// Within it, a pose is that of the stored landmark: the map has changed little since the last pose was stored.
   static constexpr double kSamePlace_m = 5.0;
 
-  /// `stored`: all landmarks of the store, by its own ids.
-  RunFinder(std::vector<StoredRun> runs, const std::vector<PanoramicLandmark>& stored);
-
-  /// Whether a run has another id than the store for one of its landmarks: else it makes no difference.
-  bool is_needed() const;
+  /// nullopt if no run has another id than the store for one of its landmarks, so that it makes no difference.
+  static std::optional<RunFinder> among(std::vector<StoredRun> runs, const LandmarkStore& store);
 
   /// A landmark that somebody has built: it says which run this is, or which it is not. Returns whether it says it first.
   bool hear(const PanoramicLandmark& landmark);
@@ -48,6 +43,9 @@ class RunFinder {
     Eigen::Vector2d position = Eigen::Vector2d::Zero();
   };
 
+  RunFinder(std::vector<StoredRun> runs, const std::vector<PanoramicLandmark>& stored);
+
+  bool is_needed() const;
   bool is_near(std::uint32_t stored_id, const LandmarkPose& pose) const;
   int votes_for(const StoredRun& run) const;
 

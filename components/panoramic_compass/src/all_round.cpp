@@ -10,9 +10,9 @@
 #include "panvo/panoramic_compass/point_field.hpp"
 #include "panvo/panoramic_compass/turn_fit.hpp"
 #include "panvo/vision/equirectangular.hpp"
-#include "panvo/vision/median.hpp"
 #include "panvo/vision/pose.hpp"
 #include "sector_patches.hpp"
+#include "seen_motion.hpp"
 
 namespace panvo::panoramic_compass {
 namespace {
@@ -24,11 +24,8 @@ constexpr double kMinFoundShare = 0.15;               // of the reference points
 constexpr std::size_t kMaxEarlier = 3;                // references before that are still followed
 constexpr std::size_t kMinEarlier = 15;               // points of the reference before, to be of use
 constexpr int kMaxFailures = 3;                       // consecutive failures before a new reference is taken
-constexpr std::size_t kMinBeside = 10;                // points on each side
-constexpr double kSideSector_rad = 0.6;               // on each side of the lateral direction
 constexpr double kAhead = 0.05;        // sine: closer to the direction of travel, the magnification is undefined
 constexpr double kMaxMagnified = 1.6;  // larger changes are clamped
-constexpr double kTurnCaution = 4.0;   // of the turn's variance: in open land it errs by up to twice what it says
 constexpr int kPatch_px = 10;          // half the width of what a point is recognised by
 constexpr double kZenithShare = 0.2;   // of the rows: overhead region
 constexpr double kSkyQuantile = 0.2;   // of the overhead grey levels
@@ -173,7 +170,7 @@ class AllRound final : public PanoramicCompass::Method {
     change.variance_rad2 = fit->yaw_variance_rad2 + systematic_rad * systematic_rad + by_parallax_rad * by_parallax_rad;
     change.side_parallax_rad = side_parallax(pairs, *fit);
     change.motion_azimuth_rad = std::atan2(-fit->drift.y(), -fit->drift.x());
-    change.motion_azimuth_variance_rad2 = motion_variance(*fit, change.variance_rad2);
+    change.motion_azimuth_variance_rad2 = motion_azimuth_variance(*fit, change.variance_rad2);
     const double sigma_deg = std::sqrt(change.variance_rad2) * 180.0 / std::numbers::pi;
     if (share < demand.min_share) {
       reason << "the points contradict each other: " << fit->agreeing << " of " << pairs.size() << " agree";
@@ -246,41 +243,6 @@ class AllRound final : public PanoramicCompass::Method {
   Eigen::Vector3d bearing(const Eigen::Vector2d& in_band) const {
     const vision::Equirectangular panorama{BandCutter::kColumns, BandCutter::kRows};
     return base_from_panorama_ * panorama.unproject({in_band.x(), in_band.y() + cutter_.first_row});
-  }
-
-  /// What is wrong with the turn looks like motion aside: its effect on the direction is inversely proportional to the
-  /// parallax.
-  static double motion_variance(const TurnFit& fit, double turn_variance_rad2) {
-    const double parallax = std::max(fit.typical_parallax, fit.near_parallax);
-    const double by_turn_rad2 = kTurnCaution * turn_variance_rad2;
-    return fit.drift_azimuth_variance_rad2 + by_turn_rad2 / std::max(parallax * parallax, by_turn_rad2);
-  }
-
-  /// Parallax of the points beside the vehicle, after removing the turn [Lu2015 6]. If only few are there, as in open
-  /// land, they may be far away or badly tracked: then at least half of what the nearer of all points moved, in any
-  /// direction.
-  static double side_parallax(const std::vector<BearingPair>& pairs, const TurnFit& fit) {
-    std::vector<double> left, right;
-    double moved_rad = 0.0, squared = 0.0;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const Eigen::Vector3d far = fit.now_from_then * pairs[i].then;
-      const double by_rad = far.cross(pairs[i].now).norm();
-      moved_rad += by_rad;
-      squared += by_rad * by_rad;
-      if (!fit.agrees[i]) continue;
-      const double azimuth = std::atan2(far.y(), far.x());
-      const double moved =
-          vision::wrap(std::atan2(pairs[i].now.y(), pairs[i].now.x()) - azimuth, 2.0 * std::numbers::pi);
-      if (std::abs(std::abs(azimuth) - 0.5 * std::numbers::pi) > kSideSector_rad) continue;
-      if (azimuth > 0.0) left.push_back(moved);
-      if (azimuth < 0.0) right.push_back(-moved);
-    }
-    double beside = 0.0;
-    if (!left.empty() && !right.empty()) beside = 0.5 * (vision::median(left) + vision::median(right));
-    if (left.empty() != right.empty()) beside = vision::median(left.empty() ? right : left);
-    if (std::min(left.size(), right.size()) >= kMinBeside || moved_rad == 0.0) return beside;
-    const double near = 0.5 * squared / moved_rad;
-    return std::abs(beside) > near ? beside : std::copysign(near, -fit.drift.x());
   }
 
   void describe_sectors(std::int64_t stamp_ns) {

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 
 #include "panvo/recorder/bag_metadata.hpp"
+#include "panvo/recorder/bag_writer.hpp"
 #include "storage_error.hpp"
 
 namespace panvo::recorder {
@@ -37,5 +39,9 @@ class BagFileWriter {
 
   const std::filesystem::path path_;
 };
+
+/// Creates a file of the storage in `options`. Throws StorageError.
+std::unique_ptr<BagFileWriter> make_file_writer(const std::filesystem::path& file, const BagWriter::Options& options,
+                                                const std::string& ros_distro);
 
 }  // namespace panvo::recorder

@@ -10,8 +10,6 @@
 #include "durable_file.hpp"
 #include "file_guard.hpp"
 #include "latched_messages.hpp"
-#include "mcap/mcap_file_writer.hpp"
-#include "sqlite_file_writer.hpp"
 
 namespace panvo::recorder {
 namespace {
@@ -163,20 +161,12 @@ std::uint64_t BagWriter::dropped_messages() const {
   return recorder::dropped_messages(*metadata_);
 }
 
-std::unique_ptr<BagFileWriter> BagWriter::make_file(const fs::path& file) const {
-  if (options_.storage == Storage::kMcap) {
-    return std::make_unique<mcap::McapFileWriter>(
-        file, mcap::McapFileWriter::Options{options_.compression, options_.chunk_bytes});
-  }
-  return std::make_unique<SqliteFileWriter>(file, metadata_->ros_distro);
-}
-
 void BagWriter::open_next_file() {
   const auto name = bag_.filename().string() + "_" + std::to_string(metadata_.files_begun()) +
                     (options_.storage == Storage::kMcap ? ".mcap" : ".db3");
   metadata_.begin_file(name);
   try {
-    file_ = make_file(bag_ / name);
+    file_ = make_file_writer(bag_ / name, options_, metadata_->ros_distro);
     guard_ = std::make_unique<FileGuard>(bag_ / name);
     file_->begin();
     for (std::size_t i = 0; i < topics_.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include "panvo/all_round_odometry/camera_rotation.hpp"
 #include "panvo/all_round_odometry/panoramic_motion.hpp"
+#include "panvo/all_round_odometry/stereo_history.hpp"
 #include "panvo/vision/clock_search.hpp"
 #include "panvo/vision/odometry_path.hpp"
 #include "panvo/vision/pose.hpp"
@@ -27,14 +28,6 @@ struct Parameters {
           "longer than the interval of panoramas, shorter than an alarm may take",
           0.05, 10.0);
   }
-};
-
-/// One result of the stereo odometry.
-struct StereoPose {
-  std::int64_t stamp_ns = 0;
-  Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();  ///< as vision::pose_error, growing from the start
-  bool is_reliable = true;                                 ///< false: not measured since the pose before
 };
 
 struct AllRoundPose {
@@ -72,11 +65,6 @@ class AllRoundOdometry {
  private:
   static constexpr double kMaxSpeed = 70.0;  // m/s: faster than any vehicle
 
-  struct Pose {
-    Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
-    vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  };
-
   struct Shift {  // after a failure: where the stereo odometry's path goes on
     Pose stereo, odometry;
   };
@@ -112,9 +100,6 @@ class AllRoundOdometry {
   void emit_held();
   Pose shifted(const Pose& stereo) const;
   Pose blind_pose() const;
-  std::size_t first_from(std::int64_t stamp_ns) const;
-  std::optional<Pose> stereo_at(std::int64_t stamp_ns) const;
-  std::optional<Eigen::Isometry3d> measured(std::int64_t from_ns, std::int64_t to_ns) const;
 
   Parameters parameters_;
   Eigen::Vector3d base_from_camera_;
@@ -127,7 +112,7 @@ class AllRoundOdometry {
   std::int64_t newest_ns_ = INT64_MIN;    // stamp of a stereo pose
   vision::UsualInterval interval_;        // of stereo poses
   vision::OdometryPath path_{kMaxSpeed};  // of the stereo odometry
-  std::deque<StereoPose> stereo_;         // recent ones on its path; the last held_ ones wait for a panorama
+  StereoHistory stereo_;                  // on that path; the last held_ ones wait for a panorama
   std::size_t held_ = 0;
   std::deque<PanoramaPoints> panoramas_;     // waiting for the stereo odometry
   vision::StampSequence panorama_stamps_;    // as received

@@ -107,7 +107,6 @@ class BagWriter {
   };
   using Clock = std::chrono::steady_clock;
 
-  std::unique_ptr<BagFileWriter> make_file(const std::filesystem::path& file) const;
   void open_next_file();
   void start_next_file();
   void remove_oldest_files();
