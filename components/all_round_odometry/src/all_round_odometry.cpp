@@ -107,9 +107,11 @@ void AllRoundOdometry::search_clock(const PanoramaPoints& received) {
   clock_search_.add(received.tracks.front().from_ns, received.stamp_ns,
                     {turn_in(received), kTurnSigma_rad * kTurnSigma_rad});
   if (blind_) return;
-  const auto found = clock_search_.find(stereo_.back().stamp_ns, turns_of_stereo());
-  if (!found || std::abs(*found - ahead_s_) < kOtherClock * vision::ClockSearch::kSigma_s) return;
-  ahead_s_ = *found;
+  const bool is_contradicted = clock_search_.has_found() && is_clock_doubtful_;
+  const auto found = clock_search_.find(stereo_.back().stamp_ns, turns_of_stereo(),
+                                        is_contradicted ? std::optional(ahead_s_) : std::nullopt);
+  if (!found || std::abs(found->ahead_s - ahead_s_) < kOtherClock * vision::ClockSearch::kSigma_s) return;
+  ahead_s_ = found->ahead_s;
   forget_panoramas();
 }
 

@@ -56,6 +56,7 @@ class MotionStage::Implementation {
       stay(frame, result);
       return result;
     }
+    const bool is_of_another_time = frame.stamp_ns <= last_stamp_ns_;
     const std::int64_t since_last_ns = interval(frame.stamp_ns, last_stamp_ns_);
     const std::int64_t since_good_ns = interval(frame.stamp_ns, good_stamp_ns_);
     last_stamp_ns_ = frame.stamp_ns;
@@ -75,6 +76,7 @@ class MotionStage::Implementation {
     } else if (motion) {
       follow(frame, *motion, since_good_ns, result);
     } else {
+      if (is_of_another_time) unseen_.go_on(vision::Vector6d::Zero(), kAnotherTime_ns);
       carry_on(frame, since_last_ns, result);
     }
     published_odom_from_left_ = result.odom_from_left;
@@ -93,6 +95,8 @@ class MotionStage::Implementation {
 
  private:
   static constexpr std::int64_t kUsualInterval_ns = 100'000'000;
+  // Images that do not match, of a time before, may show another place: as a recording that is played again.
+  static constexpr std::int64_t kAnotherTime_ns = 5'000'000'000;
   static constexpr double kPersistence_m = 1.0;  // calibration errors are correlated until other points are in view
   static constexpr int kKeyframeIterations = 3;  // starts near the solution; the next frame continues
   static constexpr int kFrameIterations = 1;

@@ -182,6 +182,31 @@ TEST_F(LateFrames, BlackOnesAfterASetClockAreNoLateFrames) {
   EXPECT_GT(second.odom_from_left_covariance.trace(), first.odom_from_left_covariance.trace());
 }
 
+/// As of a recording that is played again from an earlier time.
+TEST_F(LateFrames, OnesOfAnotherPlaceAfterASetClockTellThatTheVehicleMayHaveBeenMoved) {
+  const auto sigma_m = [&] { return std::sqrt(estimate_.odom_from_left_covariance.diagonal().head<3>().maxCoeff()); };
+  for (const bool is_elsewhere : {false, true}) {
+    odometry_ = BinocularOdometry(SyntheticScene::stereo(), {});
+    next_ = 0;
+    go_on_to(5);
+    for (int i = 6; i < 12; ++i) {
+      StereoFrame set = frame(i);
+      set.stamp_ns -= 900'000'000;
+      if (is_elsewhere) {
+        cv::flip(set.left.clone(), set.left, 0);
+        cv::flip(set.right.clone(), set.right, 0);
+      }
+      estimate_ = odometry_.step(set);
+    }
+    EXPECT_TRUE(estimate_.quality.reliable) << "again";
+    if (is_elsewhere) {
+      EXPECT_GT(sigma_m(), 5.0);
+    } else {
+      EXPECT_LT(sigma_m(), 0.02) << "the images match";
+    }
+  }
+}
+
 /// Online calibration must not depend on the content of a bad frame.
 TEST(BinocularOdometry, LearnsNothingFromABadFrame) {
   const auto learned_with = [](const StereoFrame& sixth) {

@@ -23,6 +23,11 @@ class ClockJump {
     return ahead_ns > kLeast_ns ? ahead_ns : 0;
   }
 
+  /// By how much a clock that was set back before this message was set, ns.
+  std::int64_t behind_ns(std::int64_t stamp_ns, std::int64_t arrival_ns) const {
+    return fastest_ns_ ? *fastest_ns_ - (stamp_ns - arrival_ns) : 0;
+  }
+
  private:
   /// Longer than the first message is delayed while a process starts. A shorter step counts as a gap, which is harmless.
   static constexpr std::int64_t kLeast_ns = 2'000'000'000;

@@ -18,8 +18,9 @@ namespace {
 constexpr double kSlew = 0.2;  // fraction of the pending yaw correction per step: applied within half a second at 25 Hz
 constexpr double kUnknownPosition_m = 1e4;  // standard deviation of an unknown start
 constexpr double kUnknownYaw_rad = 3.0;
-constexpr double kMistakenFor_s = 5.0;  // larger shifts between two times are unambiguous
-constexpr double kAtStart_m = 10.0;     // a loaded map may arrive late within this path, as its process starts as well
+constexpr double kMistakenFor_s = 5.0;   // larger shifts between two times are unambiguous
+constexpr double kNotableShift_s = 0.3;  // error with which the shift of a clock is known, by arrival times
+constexpr double kAtStart_m = 10.0;      // a loaded map may arrive late within this path, as its process starts as well
 
 vision::Matrix6d anywhere() {
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
@@ -137,12 +138,9 @@ bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
 
 void Localizer::set_clock_back(std::int64_t by_ns) {
   if (chain_.empty()) return;
-  // Which of the two times was right is unknown, and so is the vehicle's position at that time.
-  const double by_s = std::min(std::abs(vision::seconds(0, by_ns)), kMistakenFor_s);
-  const std::int64_t latest_ns = chain_.latest().pose.stamp_ns;
-  const auto twist = chain_.twist(latest_ns);
-  const double way_m = (twist ? twist->head<2>().norm() * by_s : 0.0) + way_sigma_m(parameters_.motion, by_s);
-  chain_.allow(latest_ns - 1, latest_ns, way_m * way_m, std::pow(turn_sigma_rad(parameters_.motion, by_s), 2));
+  const double by_s = vision::seconds(0, by_ns);
+  set_back_s_ += by_s;
+  if (std::abs(by_s) < kMistakenFor_s) last_set_s_ = std::abs(by_s);
   origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
   clock_search_ = {};
@@ -168,6 +166,40 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   turn_seen_.reset();
   check_.forget();
   mounts_.forget_stamps();
+}
+
+void Localizer::trust_stamps() {
+  if (set_back_s_ == 0.0 && last_set_s_ == 0.0) return;
+  set_back_s_ = last_set_s_ = 0.0;
+  if (!chain_.empty()) latest_ = localized(chain_.latest());
+}
+
+/// Turns have shown by how much the panoramic camera's clock is ahead: as before, if both were set alike, or by as much
+/// more as the odometry's was set back.
+void Localizer::judge_stamps(double panoramas_ahead_s) {
+  const bool are_alike = std::abs(panoramas_ahead_s - clock_.estimate_s()) < 0.5 * std::abs(set_back_s_);
+  if (are_alike) set_back_s_ = 0.0;
+  last_set_s_ = 0.0;
+}
+
+/// What a clock that is wrong by a time makes of a pose: the vehicle is where it was, or will be, then.
+vision::Matrix6d Localizer::by_time(const OdometrySample& at, double time_s) const {
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  const double off_s = std::min(std::abs(time_s), kMistakenFor_s);
+  if (off_s < kNotableShift_s) return covariance;
+  const auto twist = chain_.twist(at.pose.stamp_ns);
+  const auto then = chain_.at(at.pose.stamp_ns - vision::to_ns(off_s));
+  double way_m = twist ? off_s * twist->head<2>().norm() : 0.0;
+  double turn_rad = twist ? off_s * std::abs((*twist)[vision::kYaw]) : 0.0;
+  if (then) {
+    const Eigen::Isometry3d moved = then->pose.odom_from_base.inverse() * at.pose.odom_from_base;
+    way_m = std::max(way_m, moved.translation().norm());
+    turn_rad = std::max(turn_rad, std::abs(yaw_of(moved.linear())));
+  }
+  vision::Vector6d sigma;
+  sigma << way_m, way_m, kClimb * way_m, 0.0, 0.0, turn_rad;
+  covariance.diagonal() = sigma.cwiseAbs2();
+  return covariance;
 }
 
 bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
@@ -228,6 +260,7 @@ LocalizedPose Localizer::localized(const OdometrySample& at) const {
   pose.odom_from_base = smooth_;
   pose.map_from_odom = here.map_from_base * smooth_.inverse();
   set_state(pose);
+  pose.covariance += by_time(at, set_back_s_);
   return pose;
 }
 

@@ -146,12 +146,14 @@ void Localizer::search_clock(const AzimuthMeasurement& azimuth) {
   if (parameters_.clock_sigma_s == 0.0) return;
   clock_search_.add(azimuth.from_ns, azimuth.to_ns, {azimuth.change_rad, azimuth.variance_rad2});
   const bool was_known = is_clock_known();
-  const auto ahead_s = clock_search_.find(chain_.latest().pose.stamp_ns, turns_of_odometry());
-  if (!ahead_s) return;
-  if (was_known && std::abs(*ahead_s - clock_.estimate_s()) < kOtherClock * vision::ClockSearch::kSigma_s) {
+  const auto doubted_s = is_clock_doubtful_ ? std::optional(clock_.estimate_s()) : std::nullopt;
+  const auto found = clock_search_.find(chain_.latest().pose.stamp_ns, turns_of_odometry(), doubted_s);
+  if (!found) return;
+  if (!was_known) judge_stamps(found->ahead_s);
+  if (was_known && std::abs(found->ahead_s - clock_.estimate_s()) < kOtherClock * vision::ClockSearch::kSigma_s) {
     is_clock_doubtful_ = false;
   } else {
-    set_clock(*ahead_s, azimuth.to_ns);
+    set_clock(*found, azimuth.to_ns);
   }
 }
 
@@ -191,9 +193,9 @@ void Localizer::use_early_again(std::int64_t fused_ahead_ns) {
 }
 
 /// What panoramas have shown so far, since the clock was proven last, belongs to other times.
-void Localizer::set_clock(double ahead_s, std::int64_t panorama_stamp_ns) {
+void Localizer::set_clock(const vision::ClockSearch::Found& found, std::int64_t panorama_stamp_ns) {
   const std::int64_t fused_ahead_ns = clock_.estimate_ns();
-  clock_ = ClockOffset(vision::ClockSearch::kSigma_s, ahead_s);
+  clock_ = ClockOffset(found.sigma_s, found.ahead_s);
   check_.forget();
   chain_.revert();
   clock_doubt_.forget();

@@ -11,10 +11,10 @@
 #include <variant>
 
 #include "alignment_notices.hpp"
-#include "clock_jump.hpp"
 #include "component_parameters.hpp"
 #include "last_pose_keeper.hpp"
 #include "localizer_messages.hpp"
+#include "odometry_clock.hpp"
 #include "panorama_queue.hpp"
 #include "panvo/conversions/odometry_listener.hpp"
 #include "panvo/conversions/pose.hpp"
@@ -27,7 +27,6 @@
 #include "panvo/localizer/soundness.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/vision/seconds.hpp"
-#include "panvo/vision/stamp_sequence.hpp"
 #include "path_record.hpp"
 #include "pose_publisher.hpp"
 #include "satellites.hpp"
@@ -65,9 +64,9 @@ class LocalizerComponent final : public runtime::Component {
 
  private:
   static constexpr int kTick_ms = 100;
-  static constexpr std::int64_t kInterval_ns = 40'000'000;  // between two odometry messages, if stamps do not give it
   static constexpr std::int64_t kNotableOffset_ns = 20'000'000;  // a vehicle moves a few centimetres in that time
   static constexpr double kNoPanorama_s = 10.0;
+  static constexpr double kOfNow_s = 0.4;           // largest age of odometry whose stamps are of the host's clock
   static constexpr double kUnlocatedFor_m = 500.0;  // by then a mapped place should have been passed
 
   /// The odometry's clock was set back, or forward if negative: shifts all stored stamps. What waits is of the time
@@ -80,7 +79,6 @@ class LocalizerComponent final : public runtime::Component {
     waiting_.clear();
     satellites_.forget_stamps();
     publisher_.forget_stamps();
-    jump_ = {};
     context_.log().warn("the clock of {} was set {} by {:.1f} s: continuing with the new time",
                         context_.resolved_name(topics::kOdometryBinocular), by_ns > 0 ? "back" : "forward",
                         std::abs(static_cast<double>(by_ns)) / vision::kSecond_ns);
@@ -96,16 +94,13 @@ class LocalizerComponent final : public runtime::Component {
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return refuse(context_.resolved_name(topics::kOdometryBinocular), pose.reason());
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
-    const auto order = stamps_.add(stamp_ns);
-    if (order == vision::StampOrder::kNotLater) {
+    const auto latest_ns = begin_ns_ ? std::optional(localizer_.latest().stamp_ns) : std::nullopt;
+    if (!clock_.add(stamp_ns, context_.passing_ns(), latest_ns)) {
       return refuse(context_.resolved_name(topics::kOdometryBinocular), "has a stamp not later than the previous one");
     }
-    const std::int64_t forward_ns = jump_.add(stamp_ns, context_.passing_ns());
-    if (order == vision::StampOrder::kSetBack && begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns) {
-      set_clock_back(localizer_.latest().stamp_ns - stamp_ns + kInterval_ns);
-    } else if (forward_ns > 0 && begin_ns_) {
-      set_clock_back(-forward_ns);
-    }
+    if (clock_.set_back_ns() != 0) set_clock_back(clock_.set_back_ns());
+    const auto host_ns = context_.host_ns();
+    if (host_ns && std::abs(vision::seconds(stamp_ns, *host_ns)) < kOfNow_s) localizer_.trust_stamps();
     const OdometryPose received{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()),
                                 joined.quality.is_reliable, joined.quality.lean_sigma_rad_per_m};
     {
@@ -206,6 +201,18 @@ class LocalizerComponent final : public runtime::Component {
   }
 
   void wait(const PanoramaFact& fact) {
+    switch (clock_.panoramas_clock(stamp_of(fact), localizer_.latest().stamp_ns)) {
+      case OdometryClock::PanoramasClock::kAny:
+        break;
+      case OdometryClock::PanoramasClock::kAlike:
+        localizer_.trust_stamps();
+        break;
+      case OdometryClock::PanoramasClock::kAnother:
+        return context_.log().warn_throttled(
+            "panoramas of another clock",
+            "the clock of {} was set, but not that of the panoramas: they are not used until it is set, too",
+            context_.resolved_name(topics::kOdometryBinocular));
+    }
     if (!waiting_.push(fact)) {
       context_.log().warn_throttled(
           "panoramas ahead",
@@ -323,8 +330,7 @@ class LocalizerComponent final : public runtime::Component {
   LastPoseKeeper last_pose_;
   AlignmentNotices notices_;
   std::optional<conversions::OdometryListener> odometry_input_;
-  vision::StampSequence stamps_;  // of the odometry
-  ClockJump jump_;
+  OdometryClock clock_;
   PathRecord path_binocular_, path_enhanced_;
   PosePublisher publisher_;
   Satellites satellites_;

@@ -36,6 +36,12 @@ FixOutcome Localizer::add(const GnssFix& received) {
   return {FixUse::kUsed, {}};
 }
 
+PoseInMap Localizer::latest_in_enu() const {
+  PoseInMap pose = graph_.in_enu(chain_.latest());
+  pose.covariance += by_time(chain_.latest(), set_back_s_);
+  return pose;
+}
+
 /// Begins the use of fixes if those on trial have the shape of the odometry's path.
 FixOutcome Localizer::try_fixes(const GnssTrial::Sample& sample, double least_m) {
   fix_trial_.refresh(chain_);

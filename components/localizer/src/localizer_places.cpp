@@ -104,6 +104,7 @@ LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sightin
   const double sigma_s = clock_sigma_s();
   wider.covariance += sigma_s * sigma_s * moved * moved.transpose() +
                       2.0 * vision::stamp_covariance(seen, *twist, std::min(sigma_s, kStampSigma_s));
+  if (!is_clock_known()) wider.covariance += by_time(*chain_.at(in_odometry_time(sighting.stamp_ns)), last_set_s_);
   return wider;
 }
 

@@ -7,6 +7,7 @@
 
 #include "clock_jump.hpp"
 #include "localizer_on_topics.hpp"
+#include "odometry_clock.hpp"
 #include "panvo/interfaces/time_topics.hpp"
 
 namespace panvo::localizer {
@@ -55,6 +56,44 @@ TEST(ClockJump, IsNoTimeThatAProcessWasStopped) {
   EXPECT_EQ(sender.most_of(100), 0) << "and no longer";
   sender.clock_ns -= 3600 * kSecond_ns;
   EXPECT_EQ(sender.most_of(100), 0) << "set back";
+}
+
+/// Messages every 40 ms, of a clock that is set after 100 of them.
+struct SetSender {
+  explicit SetSender(double back_s, int lost = 0) {
+    for (int i = 0; i < 100; ++i) send();
+    count += lost;
+    ahead_ns = -static_cast<std::int64_t>(std::llround(back_s * 1e9));
+    for (int i = 0; i < 10 && clock.set_back_ns() == 0; ++i) send();
+  }
+  void send() {
+    const std::int64_t arrival_ns = ++count * kPeriod_ns, stamp_ns = kBegin_ns + arrival_ns + ahead_ns;
+    if (clock.add(stamp_ns, arrival_ns, latest_ns)) latest_ns = stamp_ns;
+  }
+  double set_back_s() const { return 1e-9 * static_cast<double>(clock.set_back_ns()); }
+
+  OdometryClock clock;
+  std::optional<std::int64_t> latest_ns;
+  std::int64_t count = 0, ahead_ns = 0;
+};
+
+TEST(OdometryClock, TellsByHowMuchItWasSetHoweverManyMessagesAreLost) {
+  for (const int lost : {0, 20}) {
+    EXPECT_NEAR(SetSender(2.3, lost).set_back_s(), 2.3, 1e-6) << lost;
+    EXPECT_NEAR(SetSender(-7.0, lost).set_back_s(), -7.0, 1e-6) << lost;
+  }
+  SetSender sender(2.3);
+  sender.send();
+  EXPECT_EQ(sender.set_back_s(), 0.0) << "once";
+}
+
+TEST(OdometryClock, PanoramasOfAClockThatWasNotSetAreOfAnotherTime) {
+  using Of = OdometryClock::PanoramasClock;
+  SetSender near(2.3), far(3600.0);
+  EXPECT_EQ(near.clock.panoramas_clock(*near.latest_ns + 2 * kSecond_ns, *near.latest_ns), Of::kAny);
+  EXPECT_EQ(far.clock.panoramas_clock(*far.latest_ns + 3600 * kSecond_ns, *far.latest_ns), Of::kAnother);
+  EXPECT_EQ(far.clock.panoramas_clock(*far.latest_ns + kPeriod_ns, *far.latest_ns), Of::kAlike);
+  EXPECT_EQ(far.clock.panoramas_clock(*far.latest_ns + 3600 * kSecond_ns, *far.latest_ns), Of::kAny) << "no longer";
 }
 
 TEST_F(LocalizerOnTopics, SaysThatTheCamerasClocksDisagree) {

@@ -322,14 +322,38 @@ TEST(LocalizerTime, GoesOnWhenTheClockIsSetForward) {
   EXPECT_EQ(vehicle.state(), states::TRACKING) << vehicle.states.back()->reason();
   EXPECT_NEAR(vehicle.x(), 14.8, 1e-6);
   EXPECT_EQ(conversions::stamp_ns(*vehicle.enhanced.back()), Vehicle::stamp(74) + HourAhead::kHour_ns);
-  EXPECT_LT(std::sqrt(vehicle.enhanced.back()->pose().covariance()[0]), 50.0) << "as if it was set back";
+  EXPECT_LE(std::sqrt(vehicle.enhanced.back()->pose().covariance()[0]), 25.0 + 0.1) << "5 s at 5 m/s";
   EXPECT_TRUE(vehicle.harness_.log_contains("was set forward by 3600.0 s"));
-  auto correction = vehicle.correction(1, 74, ahead(9.3));
+  auto correction = vehicle.correction(1, 74, ahead(9.6));
   correction.header().stamp(conversions::to_stamp(Vehicle::stamp(74) + HourAhead::kHour_ns));
   vehicle.harness_.publish(topics::kCorrection, correction);
   ASSERT_THAT(vehicle.outcomes, SizeIs(1));
   EXPECT_EQ(vehicle.outcomes[0]->outcome(), outcomes::APPLIED) << vehicle.outcomes[0]->reason();
-  EXPECT_NEAR(vehicle.x(), 14.3, 0.2);
+  EXPECT_NEAR(vehicle.x(), 14.6, 0.1);
+  EXPECT_LT(std::sqrt(vehicle.enhanced.back()->pose().covariance()[0]), 0.1) << "both clocks were set";
+}
+
+TEST(LocalizerTime, StampsOfTheTimeThatPassesAreRightAfterTheClockIsSet) {
+  // The clock is 3 s late, or right, and is set forward by 3 s.
+  for (const bool was_late : {true, false}) {
+    std::int64_t arrival_ns = Vehicle::stamp(0);
+    Vehicle vehicle({{"fusion.clock_sigma_s", "0"}}, false, [&] { return arrival_ns; });
+    for (int i = 0; i < 75; ++i) {
+      arrival_ns = Vehicle::stamp(i);
+      vehicle.drive_with_clock_set(i, i + 1, (was_late ? -3 : 0) * kSecond_ns + (i > 50 ? 3 : 0) * kSecond_ns);
+    }
+    EXPECT_TRUE(vehicle.harness_.log_contains("was set forward by 3.0 s"));
+    const double sigma_m = std::sqrt(vehicle.enhanced.back()->pose().covariance()[0]);
+    EXPECT_NEAR(sigma_m, was_late ? 0.1 : 15.0, was_late ? 0.1 : 1.0) << "3 s, at 5 m/s";
+  }
+}
+
+TEST(LocalizerTime, UsesNoPlacesOfPanoramasWhoseClockWasNotSetByAnHour) {
+  HourAhead set(false);
+  Vehicle& vehicle = set.vehicle;
+  vehicle.harness_.publish(topics::kCorrection, vehicle.correction(1, 74, ahead(9.3)));
+  EXPECT_THAT(vehicle.outcomes, SizeIs(0));
+  EXPECT_TRUE(vehicle.harness_.log_contains("not that of the panoramas"));
 }
 
 TEST(LocalizerTime, IsLostAfterASilenceOfAnHour) {

@@ -30,7 +30,7 @@ struct Winding {
     for (int i = from; i < to; ++i) {
       const double t = time_s(i);
       const OdometryPose before = std::exchange(odometry, {});
-      odometry.stamp_ns = ns(t);
+      odometry.stamp_ns = ns(t - clock_back_s);
       odometry.odom_from_base.translation().x() = kSpeed * (t - 100.0);
       odometry.odom_from_base.linear() =
           vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw(t) + (extra_rad ? extra_rad(t) : 0.0)));
@@ -46,6 +46,7 @@ struct Winding {
   }
 
   double step_variance = 4e-8;      // of the odometry
+  double clock_back_s = 0.0;        // the same: its clock was set back
   int panoramas_per_reference = 1;  // consecutive
   double azimuth_error_rad = 0.0;
   int first = 40;  // frame with a panorama

@@ -161,6 +161,11 @@ std::string Context::run_id() const {
   return state_->host.run_id + full_name(state_->description.name_space, state_->description.name);
 }
 std::int64_t Context::passing_ns() const { return state_->host.time.now_ns(); }
+std::optional<std::int64_t> Context::host_ns() const {
+  const auto& time = state_->host.time;
+  if (time.pace() != PassingTime::Pace::kClock || state_->follows_clock()) return std::nullopt;
+  return state_->host.replay_order ? time.now_ns() : clocks::system_ns();
+}
 std::int64_t Context::now_ns() const noexcept { return current_stamp_ns(); }
 
 std::uint64_t Context::seed() const noexcept {

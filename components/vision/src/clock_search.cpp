@@ -15,6 +15,7 @@ constexpr double kKept = 0.995;                 // of the costs per turn: about 
 constexpr double kMaxCost = 9.0;                // per turn: a wrong one decides nothing
 constexpr double kClear = 60.0;                 // excess of a cost that excludes a candidate: seven turns or more
 constexpr std::size_t kNear = 4;                // steps: candidates that need not be excluded
+constexpr std::size_t kCoarse = 8;              // the same, if the offset so far is excluded
 constexpr double kLeast_rad = 0.003;            // standard deviation that no turn falls below
 constexpr double kScale = 0.02;                 // relative error of a turn by an aged calibration
 constexpr std::size_t kMaxContradictions = 10;  // two seconds of panoramas
@@ -26,9 +27,10 @@ void ClockSearch::add(std::int64_t from_ns, std::int64_t to_ns, const Turn& turn
   for (Row* row : {&usual_, &far_}) row->add({from_ns, to_ns, turn});
 }
 
-std::optional<double> ClockSearch::find(std::int64_t latest_ns, const Reference& reference) {
-  auto found = usual_.find(latest_ns, reference);
-  if (!found) found = far_.find(latest_ns, reference);
+auto ClockSearch::find(std::int64_t latest_ns, const Reference& reference, const std::optional<double>& doubted_s)
+    -> std::optional<Found> {
+  auto found = usual_.find(latest_ns, reference, doubted_s);
+  if (!found) found = far_.find(latest_ns, reference, doubted_s);
   if (!found) return std::nullopt;
   usual_.forget_costs();
   far_.forget_costs();
@@ -48,18 +50,21 @@ void ClockSearch::Row::add(const Seen& seen) {
   if (pending_.size() > kMaxPending) pending_.pop_front();
 }
 
-std::optional<double> ClockSearch::Row::find(std::int64_t latest_ns, const Reference& reference) {
+auto ClockSearch::Row::find(std::int64_t latest_ns, const Reference& reference, const std::optional<double>& doubted_s)
+    -> std::optional<Found> {
   while (!pending_.empty() && pending_.front().to_ns + to_ns(farthest_s_) <= latest_ns) {
     compare(pending_.front(), reference);
     pending_.pop_front();
   }
-  const auto found = best();
-  if (!found) return std::nullopt;
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(cost_) - cost_.begin());
+  if (least == 0 || least == cost_.size() - 1) return std::nullopt;
+  const bool is_sure = excludes_all_but(least, kNear);
+  if (!is_sure && !(doubted_s && excludes(*doubted_s, least) && excludes_all_but(least, kCoarse))) return std::nullopt;
   // The vertex of the parabola through the costs around the best candidate.
-  const double before = cost_[*found - 1], at = cost_[*found], after = cost_[*found + 1];
+  const double before = cost_[least - 1], at = cost_[least], after = cost_[least + 1];
   const double bend = before - 2.0 * at + after;
   const double vertex = bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
-  return offset_s(static_cast<double>(*found) + vertex);
+  return Found{offset_s(static_cast<double>(least) + vertex), is_sure ? kSigma_s : 0.5 * kCoarse * kStep_s};
 }
 
 void ClockSearch::Row::forget() {
@@ -88,15 +93,21 @@ void ClockSearch::Row::compare(const Seen& seen, const Reference& reference) {
   }
 }
 
-/// The candidate that excludes all others but its neighbours.
-std::optional<std::size_t> ClockSearch::Row::best() const {
-  const auto least = static_cast<std::size_t>(std::ranges::min_element(cost_) - cost_.begin());
-  if (least == 0 || least == cost_.size() - 1) return std::nullopt;
+bool ClockSearch::Row::excludes_all_but(std::size_t least, std::size_t near) const {
   for (std::size_t i = 0; i < cost_.size(); ++i) {
     const std::size_t apart = i > least ? i - least : least - i;
-    if (apart > kNear && cost_[i] < cost_[least] + kClear) return std::nullopt;
+    if (apart > near && cost_[i] < cost_[least] + kClear) return false;
   }
-  return least;
+  return true;
+}
+
+/// Whether both candidates beside an offset are excluded.
+bool ClockSearch::Row::excludes(double offset_s, std::size_t least) const {
+  const double at = (offset_s + farthest_s_) / kStep_s;
+  if (at < 0.0 || at > static_cast<double>(cost_.size() - 1)) return true;
+  const double of_nearer =
+      std::min(cost_[static_cast<std::size_t>(at)], cost_[static_cast<std::size_t>(std::ceil(at))]);
+  return of_nearer > cost_[least] + kClear;
 }
 
 bool ClockDoubt::add(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double within_rad,

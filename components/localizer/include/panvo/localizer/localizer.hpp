@@ -128,7 +128,7 @@ class Localizer {
   /// Whether there is a frame of the satellites.
   bool has_enu() const noexcept { return graph_.has_enu(); }
   /// Latest enu_from_base, and the map in that frame. Precondition: has_enu().
-  PoseInMap latest_in_enu() const { return graph_.in_enu(chain_.latest()); }
+  PoseInMap latest_in_enu() const;
   PoseInMap map_from_enu() const { return graph_.map_from_enu(); }
   /// Odometry's length over the true one, by satellites; 1 without them.
   const Estimate& scale() const noexcept { return graph_.scale(); }
@@ -140,8 +140,12 @@ class Localizer {
   /// longer stored or the pose has a fault.
   bool set_initial_pose(const PoseInMap& pose, std::int64_t stamp_ns);
 
-  /// The odometry's clock was set back, or forward if negative: shifts all stored stamps by this much.
+  /// The odometry's clock was set back, or forward if negative: shifts all stored stamps by this much. The path goes on.
+  /// Which of the two times is right is unknown, and so is where the vehicle is at the stamp of a pose: until the clock is
+  /// set to the former time again, or turns show that the panoramic camera's clock was set alike.
   void set_clock_back(std::int64_t by_ns);
+  /// The odometry's stamps, and those of the panoramas against them, are right all the same.
+  void trust_stamps();
 
   const LocalizedPose& latest() const noexcept { return latest_; }
   /// The latest pose with the uncertainty gained since the last odometry.
@@ -208,6 +212,8 @@ class Localizer {
   bool vouches(const PendingRelocalization& before, const PendingRelocalization& now) const;
   bool agree(const PendingRelocalization& before, const PendingRelocalization& now) const;
   double clock_sigma_s() const;
+  vision::Matrix6d by_time(const OdometrySample& at, double time_s) const;
+  void judge_stamps(double panoramas_ahead_s);
   vision::Matrix6d by_clock(const Eigen::Vector3d& velocity_m_s) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   LandmarkSighting with_uncertain_mount(const LandmarkSighting& sighting) const;
@@ -216,7 +222,7 @@ class Localizer {
   void keep_early(const AzimuthMeasurement& azimuth);
   void use_early_again(std::int64_t fused_ahead_ns);
   void search_clock(const AzimuthMeasurement& azimuth);
-  void set_clock(double ahead_s, std::int64_t panorama_stamp_ns);
+  void set_clock(const vision::ClockSearch::Found& found, std::int64_t panorama_stamp_ns);
   void agree(std::int64_t panorama_stamp_ns, double disagreement_rad, double rate_change_rad_s, double sigma_rad);
   bool may_be_of_another_time(const AzimuthMeasurement& azimuth, double within_rad);
   vision::ClockSearch::Reference turns_of_odometry() const;
@@ -238,6 +244,8 @@ class Localizer {
   vision::ClockDoubt clock_doubt_;
   bool is_clock_doubtful_ = false;            // it may have been stepped
   std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
+  double set_back_s_ = 0.0;                   // the odometry's clock, in all; 0 if its stamps are right all the same
+  double last_set_s_ = 0.0;                   // by so much, last, unless panoramas have shown their clock since
   std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times
   TurnErrorFilter turn_error_;
   YawBiasDetector lean_;

@@ -195,6 +195,9 @@ class Context {
   /// no meaning.
   std::int64_t passing_ns() const;
 
+  /// The host's clock, ns, if messages are of now; nullopt in replay, while sources play, and with use_sim_time.
+  std::optional<std::int64_t> host_ns() const;
+
   /// Seed for the component's random numbers, derived from the system's seed and the component's name.
   std::uint64_t seed() const noexcept;
 

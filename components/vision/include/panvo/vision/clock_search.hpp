@@ -25,14 +25,20 @@ class ClockSearch {
   static constexpr double kStep_s = 0.02;  ///< from candidate to candidate
   /// To both sides: of most cameras, which are found sooner, and of slow streams.
   static constexpr double kUsual_s = 0.6, kFarthest_s = 2.0;
-  static constexpr double kSigma_s = 0.02;  ///< standard deviation of what is found
+  static constexpr double kSigma_s = 0.02;  ///< standard deviation of what is found, unless it says another one
 
   /// A turn by the other sensor, with stamps of its clock.
   void add(std::int64_t from_ns, std::int64_t to_ns, const Turn& turn);
 
-  /// Compares the turns that the reference sensor, up to `latest_ns`, covers at every candidate. Returns by how much the
-  /// other clock is ahead, s, once the turns exclude all other candidates; then starts again.
-  std::optional<double> find(std::int64_t latest_ns, const Reference& reference);
+  struct Found {
+    double ahead_s = 0.0;  ///< the other clock
+    double sigma_s = kSigma_s;
+  };
+  /// Compares the turns that the reference sensor, up to `latest_ns`, covers at every candidate. Returns the offset once
+  /// the turns exclude all other candidates; then starts again. `doubted_s`: an offset that was found, which turns
+  /// contradict: if they exclude it, too, a coarse offset is better than that one.
+  std::optional<Found> find(std::int64_t latest_ns, const Reference& reference,
+                            const std::optional<double>& doubted_s = {});
 
   /// The clock may have been set: turns so far no longer count.
   void forget_turns();
@@ -51,13 +57,15 @@ class ClockSearch {
    public:
     explicit Row(double farthest_s);
     void add(const Seen& seen);
-    std::optional<double> find(std::int64_t latest_ns, const Reference& reference);
+    std::optional<Found> find(std::int64_t latest_ns, const Reference& reference,
+                              const std::optional<double>& doubted_s);
     void forget();
     void forget_costs() { std::ranges::fill(cost_, 0.0); }
 
    private:
     void compare(const Seen& seen, const Reference& reference);
-    std::optional<std::size_t> best() const;
+    bool excludes_all_but(std::size_t least, std::size_t near) const;
+    bool excludes(double offset_s, std::size_t least) const;
     double offset_s(double candidate) const { return candidate * kStep_s - farthest_s_; }
 
     double farthest_s_;
