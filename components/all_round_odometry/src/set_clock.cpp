@@ -22,7 +22,9 @@ auto AllRoundOdometry::continued(const StereoPose& stereo, int refused) const ->
   const double time_s = interval_.median_s() * (refused + 1);
   const bool is_same_path = path_.goes_on(time_s, stereo.odom_from_base, stereo.covariance);
   const Pose now{stereo.odom_from_base, stereo.covariance};
-  if (is_same_path && blind_) return Shift{stereo_.at(last_->stamp_ns).value_or(now), last_->odometry};
+  const auto there = blind_ ? stereo_.at(last_->stamp_ns) : std::nullopt;
+  if (is_same_path && there) return Shift{*there, last_->odometry};
+  // While its poses were refused, the stereo odometry went on.
   if (is_same_path || emitted_ns_ == INT64_MIN) return shift_;
   const vision::Vector6d twist = blind_ ? twist_ : path_.velocity();  // panoramas may have shown none
   return Shift{now, {emitted_.odom_from_base, vision::after_unknown_motion(emitted_.covariance, twist, time_s)}};

@@ -119,6 +119,17 @@ TEST_F(Restart, IsNoSingleWrongPose) {
   expect_no_jump();
 }
 
+/// A reader refuses stamps of the new time at first, so that panoramas continue the odometry.
+TEST_F(Restart, WithASetClockTakesTheMotionThatTheStereoOdometryMeasuredMeanwhile) {
+  go(1, 20, Stereo::kGood);
+  go(21, 22, Stereo::kSilent);
+  ASSERT_TRUE(poses_.back().agreeing_share);
+  for (int frame = 1; frame <= 3 * kFrames; ++frame)
+    say_stereo(20.0 + frame / static_cast<double>(kFrames), Stereo::kGood);
+  set_back(10'000'000'000, 24);
+  EXPECT_LT(error_m(poses_.back()), 0.01);
+}
+
 /// The uncertainty of the motion since the last pose is that of the stereo odometry's speed.
 TEST_F(Restart, WithASetClockLeavesAGapAlsoWithoutPanoramas) {
   go(1, 20, Stereo::kGood, false);

@@ -193,8 +193,11 @@ TEST_F(LateFrames, OnesOfAnotherPlaceAfterASetClockTellThatTheVehicleMayHaveBeen
       StereoFrame set = frame(i);
       set.stamp_ns -= 900'000'000;
       if (is_elsewhere) {
-        cv::flip(set.left.clone(), set.left, 0);
-        cv::flip(set.right.clone(), set.right, 0);
+        cv::Mat left, right;
+        cv::flip(set.left, left, 0);
+        cv::flip(set.right, right, 0);
+        set.left = left;
+        set.right = right;
       }
       estimate_ = odometry_.step(set);
     }
