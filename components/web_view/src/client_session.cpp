@@ -74,13 +74,17 @@ void ClientSession::tell(const ChannelTable::Change& change, std::vector<std::sh
   });
 }
 
-void ClientSession::tell_time(std::int64_t time_ns) {
+void ClientSession::tell_time() {
+  const std::lock_guard lock(time_mutex_);
+  const auto now_ns = view_.time_ns();  // under the lock: an older time must not be told after a newer one
+  if (!now_ns || now_ns == told_time_ns_) return;
   if (!has_time_) {
     welcome(true);
     // On this, Lichtblick takes the types of all channels into the session.
     sender_.send_text(web_view::advertise({}, notation_));
   }
-  sender_.send_binary(time_frame(time_ns));
+  sender_.send_binary(time_frame(*now_ns));
+  told_time_ns_ = *now_ns;
 }
 
 void ClientSession::tell_playback(bool is_moved) {
@@ -145,6 +149,8 @@ void ClientSession::subscribe(const Subscribe::One& wanted) {
   const auto send = [this, id = wanted.id, is_to_compress = source.has_value()](const runtime::SamplePtr& sample) {
     // By the clock of tell_time(), if the client is told the time.
     const auto time_ns = has_time_ ? view_.time_ns() : std::nullopt;
+    // Viewers drop what came before a time that goes back, also transforms that are sent only once.
+    if (time_ns && *time_ns < told_time_ns_) tell_time();
     sender_.send_message(id, time_ns.value_or(sample->time_ns()), sample, is_to_compress);
   };
   auto reading = view_.topics().read(source.value_or(*topic), send);

@@ -43,8 +43,9 @@ class ClientSession final : public WebServer::Session {
   void tell(const ServiceTable::Change& change);
   /// To a client that asked for the graph: what has changed since it was told of it.
   void tell(const ConnectionGraph& graph);
-  /// Restarts the session of a client that was welcomed without a time, because its clock differed.
-  void tell_time(std::int64_t time_ns);
+  /// The time of the view, if it has changed. Restarts the session of a client that was welcomed without a time, because
+  /// its clock differed.
+  void tell_time();
   /// To a client that controls the playback, on a change of its status or speed, or if the time was moved. Others may not
   /// know the message.
   void tell_playback(bool is_moved);
@@ -94,6 +95,8 @@ class ClientSession final : public WebServer::Session {
   Sender sender_;
   std::map<std::uint32_t, Publication> publications_;  // by id; used by the connection's thread only
   std::atomic<bool> has_time_{false};
+  std::mutex time_mutex_;                      // one time at a time
+  std::atomic<std::int64_t> told_time_ns_{0};  // changed with time_mutex_ locked
   std::uint64_t told_drops_ = 0;
   std::chrono::steady_clock::time_point drops_told_at_{};
   mutable std::mutex mutex_;                    // guards the next seven; not held while a topic is opened or closed

@@ -149,12 +149,9 @@ std::optional<std::int64_t> View::time_ns() const {
 }
 
 void View::tell_time() {
-  const auto now_ns = time_ns();
-  const bool is_new = now_ns && *now_ns != told_time_ns_;
-  if (is_new) told_time_ns_ = *now_ns;
   const std::lock_guard lock(mutex_);
   for (ClientSession* session : sessions_) {
-    if (is_new) session->tell_time(*now_ns);
+    session->tell_time();
     session->tell_playback(false);
   }
 }
@@ -195,9 +192,8 @@ std::optional<runtime::ServiceDescription> View::find_service(std::uint32_t id) 
 void View::join(ClientSession& session) {
   update();
   const std::lock_guard lock(mutex_);
-  const auto now_ns = time_ns();
-  session.welcome(now_ns.has_value());
-  if (now_ns) session.tell_time(*now_ns);
+  session.welcome(time_ns().has_value());
+  session.tell_time();
   std::vector<std::shared_ptr<void>> none;
   session.tell(ChannelTable::Change{channels_.all(), {}}, none);
   session.tell(ServiceTable::Change{services_.all(), {}});

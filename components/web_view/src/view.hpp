@@ -91,7 +91,6 @@ class View {
   ImageCompressor compressor_;
   std::atomic<std::int64_t> clock_ns_ = 0;  // of /clock; 0: none
   std::shared_ptr<void> clock_;             // reads it; used with update_mutex_ locked
-  std::int64_t told_time_ns_ = 0;           // used by tell_time() only
   std::mutex update_mutex_;                 // one update at a time
   mutable std::mutex mutex_;                // guards the next five
   ChannelTable channels_;

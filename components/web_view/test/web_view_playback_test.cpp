@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <optional>
 #include <thread>
 
@@ -22,6 +23,7 @@ class Hour final : public runtime::Source {
     return next_ns_ <= kLast ? std::optional(next_ns_) : std::nullopt;
   }
   void emit() override {
+    if (on_step) on_step();
     const std::lock_guard lock(mutex_);
     next_ns_ += kSecond;
   }
@@ -32,6 +34,8 @@ class Hour final : public runtime::Source {
     const std::lock_guard lock(mutex_);
     next_ns_ = stamp_ns;
   }
+
+  std::function<void()> on_step;
 
  private:
   std::mutex mutex_;
@@ -68,15 +72,17 @@ void send(WebSocketClient& client, const Command& command) {
   client.send_binary(frame);
 }
 
+std::uint64_t number_in(const std::vector<std::uint8_t>& frame, std::size_t from, std::size_t bytes) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < bytes; ++i) value |= std::uint64_t{frame.at(from + i)} << (8 * i);
+  return value;
+}
+
 /// The next state; other frames are skipped.
 Told next_told(WebSocketClient& client) {
   while (const auto frame = client.receive()) {
     if (frame->operation != 2 || frame->data.at(0) != 5) continue;
-    const auto number = [&](std::size_t from, std::size_t bytes) {
-      std::uint64_t value = 0;
-      for (std::size_t i = 0; i < bytes; ++i) value |= std::uint64_t{frame->data.at(from + i)} << (8 * i);
-      return value;
-    };
+    const auto number = [&](std::size_t from, std::size_t bytes) { return number_in(frame->data, from, bytes); };
     EXPECT_EQ(number(15, 4), frame->data.size() - 19);
     return {frame->data.at(1),
             static_cast<std::int64_t>(number(2, 8)),
@@ -155,6 +161,29 @@ TEST_F(WebViewPlayback, TellsItsClientsWhatOthersDo) {
   EXPECT_EQ(last.status, 3) << "the end";
   send(one, {true, 1, kFirst, "again"});
   EXPECT_EQ(next_told(one).status, 0);
+}
+
+/// Viewers drop the messages that came before a time that goes back, also the transforms that are sent only once.
+TEST_F(WebViewPlayback, TellsTheTimeBeforeTheMessagesWhenItGoesBack) {
+  hour_.on_step = [this] { odometry_->publish(odometry(1)); };
+  play("true");
+  WebSocketClient client(port());
+  subscribe(client, 3, channel_of(client, "/odometry/binocular"));
+  settle(client);
+  std::uint64_t told_ns = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto to_ns = static_cast<std::uint64_t>(kLast - (10 * i + 10) * kSecond);
+    send(client, {true, 1, to_ns, ""});
+    std::uint64_t of_message_ns = 0;
+    while (of_message_ns < to_ns || of_message_ns >= to_ns + 10 * kSecond) {
+      const auto frame = client.receive();
+      ASSERT_TRUE(frame);
+      if (frame->operation != 2) continue;
+      if (frame->data.at(0) == 2) told_ns = number_in(frame->data, 1, 8);
+      if (frame->data.at(0) == 1) of_message_ns = number_in(frame->data, 5, 8);
+    }
+    EXPECT_LE(told_ns, of_message_ns) << "move " << i;
+  }
 }
 
 TEST_F(WebViewPlayback, IsNotControlledWithoutPermission) {
