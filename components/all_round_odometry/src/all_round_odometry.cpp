@@ -274,10 +274,13 @@ void AllRoundOdometry::return_to_stereo(std::int64_t stamp_ns) {
 /// Nothing has measured the motion for too long: continues with the poses of the stereo odometry.
 void AllRoundOdometry::give_up() {
   if (blind_) {
-    // The motion since the last panorama is that of the stereo odometry, if that was not silent.
+    // The motion since the last panorama is that of the stereo odometry. After a silence, or if its clock was set forward,
+    // it may have measured the motion since its pose before that.
     const StereoPose& first = stereo_[stereo_.size() - held_];
     const auto there = stereo_.at(last_->stamp_ns);
-    shift_ = Shift{there.value_or(Pose{first.odom_from_base, first.covariance}), last_->odometry};
+    if (there || !first.is_reliable) {
+      shift_ = Shift{there.value_or(Pose{first.odom_from_base, first.covariance}), last_->odometry};
+    }
     blind_.reset();
   }
   const std::size_t held = std::exchange(held_, 0);

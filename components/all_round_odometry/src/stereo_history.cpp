@@ -27,6 +27,7 @@ std::optional<Pose> StereoHistory::at(std::int64_t stamp_ns) const {
   if (b.stamp_ns == stamp_ns) return Pose{b.odom_from_base, b.covariance};
   if (after == 0) return std::nullopt;
   const StereoPose& a = poses_[after - 1];
+  if (seconds(a.stamp_ns, b.stamp_ns) > kMaxGap_s) return std::nullopt;
   const double share = seconds(a.stamp_ns, stamp_ns) / seconds(a.stamp_ns, b.stamp_ns);
   return Pose{vision::interpolate(a.odom_from_base, b.odom_from_base, share),
               (1.0 - share) * a.covariance + share * b.covariance};

@@ -130,6 +130,19 @@ TEST_F(Restart, WithASetClockTakesTheMotionThatTheStereoOdometryMeasuredMeanwhil
   EXPECT_LT(error_m(poses_.back()), 0.01);
 }
 
+/// The same, for a clock that is set forward.
+TEST_F(Restart, IsNotWhereAClockIsSetForward) {
+  go(1, 20, Stereo::kGood);
+  go(21, 22, Stereo::kSilent);
+  for (int frame = 1; frame <= 3 * kFrames; ++frame)
+    say_stereo(20.0 + frame / static_cast<double>(kFrames), Stereo::kGood);
+  back_ns_ = -10'000'000'000;
+  go(24, 26, Stereo::kGood);
+  EXPECT_TRUE(poses_.back().is_reliable);
+  EXPECT_FALSE(poses_.back().agreeing_share);
+  EXPECT_LT(error_m(poses_.back()), 0.01);
+}
+
 /// The uncertainty of the motion since the last pose is that of the stereo odometry's speed.
 TEST_F(Restart, WithASetClockLeavesAGapAlsoWithoutPanoramas) {
   go(1, 20, Stereo::kGood, false);

@@ -40,7 +40,7 @@ class StereoHistory {
   /// Index of the first pose not before a time.
   std::size_t first_from(std::int64_t stamp_ns) const;
 
-  /// Interpolated; nullopt outside the history.
+  /// Interpolated; nullopt outside the history, and between poses too far apart for that.
   std::optional<Pose> at(std::int64_t stamp_ns) const;
   /// The motion between two times; nullopt if the stereo odometry has not measured all of it.
   std::optional<Eigen::Isometry3d> measured(std::int64_t from_ns, std::int64_t to_ns) const;
