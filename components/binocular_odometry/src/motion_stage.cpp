@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "dead_reckoning.hpp"
+#include "lean_sigma.hpp"
 #include "motion_model.hpp"
 #include "motion_ransac.hpp"
 #include "panvo/vision/pose.hpp"
@@ -41,7 +42,7 @@ class MotionStage::Implementation {
       : stereo_(stereo),
         parameters_(parameters),
         observer_(observer),
-        lean_sigma_rad_per_m_(parameters.rectification_error_px / (stereo.camera.fx * stereo.baseline_m)),
+        lean_sigma_(stereo, parameters),
         adjuster_(stereo, parameters),
         unseen_(parameters.acceleration, parameters.angular_acceleration) {}
 
@@ -51,7 +52,7 @@ class MotionStage::Implementation {
     result.quality.detected = frame.detected;
     result.quality.tracked = frame.tracked;
     result.quality.matched = frame.matched;
-    result.quality.lean_sigma_rad_per_m = lean_sigma_rad_per_m_;
+    result.quality.lean_sigma_rad_per_m = lean_sigma_.rad_per_m();
     if (frame.is_late) {
       stay(frame, result);
       return result;
@@ -215,6 +216,8 @@ class MotionStage::Implementation {
     result.quality.reliable = true;
     result.odom_from_left = head_.left_from_odom.inverse();
     result.previous_from_current = published_odom_from_left_.inverse() * result.odom_from_left;
+    lean_sigma_.add(result.quality.inlier_ratio, result.previous_from_current.translation().norm());
+    result.quality.lean_sigma_rad_per_m = lean_sigma_.rad_per_m();
     result.previous_from_current_covariance =
         previous_from_current_covariance(motion) + model_error(result.previous_from_current, 0.0);
     if (!was_reliable_) result.previous_from_current_covariance += covariance_of_return(result.previous_from_current);
@@ -256,8 +259,9 @@ class MotionStage::Implementation {
     const double angle = vision::so3_log(a_from_b.linear()).norm();
     vision::Vector6d sigma;
     sigma << Eigen::Vector3d::Constant(parameters_.motion_error_ratio * distance),
-        Eigen::Vector3d::Constant(parameters_.motion_error_ratio * angle +
-                                  std::max(parameters_.rotation_error_rad_per_m, lean_sigma_rad_per_m_) * distance);
+        Eigen::Vector3d::Constant(
+            parameters_.motion_error_ratio * angle +
+            std::max(parameters_.rotation_error_rad_per_m, lean_sigma_.of_calibration_rad_per_m()) * distance);
     return sigma.cwiseAbs2().asDiagonal();
   }
 
@@ -308,7 +312,7 @@ class MotionStage::Implementation {
   vision::RectifiedStereo stereo_;
   MotionParameters parameters_;
   vision::StageObserver* observer_;
-  double lean_sigma_rad_per_m_;
+  LeanSigma lean_sigma_;
   TwoStageLocalBundleAdjuster adjuster_;
   MotionModel motion_model_;
   DeadReckoning unseen_;            // since the last measured pose

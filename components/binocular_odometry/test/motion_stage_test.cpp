@@ -294,6 +294,25 @@ TEST(MotionStage, StatesALargerLeanForASmallerRig) {
   EXPECT_NEAR(stated(250.0, 0.06), error_px / 15.0, 1e-12);
 }
 
+TEST(MotionStage, StatesALargerLeanWhereMorePointsContradictTheMotion) {
+  DriveBehindACar drive;
+  const MotionParameters parameters;
+  MotionStage stage(kStageStereo, parameters, nullptr);
+  const double of_calibration = parameters.rectification_error_px / 48.0;
+  double outliers = 0.0;
+  for (int i = 0; i < DriveBehindACar::kFrames; ++i) {
+    const auto quality = stage.estimate(drive.frame(i)).quality;
+    if (i > 0) outliers += 1.0 - quality.inlier_ratio;
+    const double by_outliers = parameters.outlier_lean_rad_per_m * outliers / std::max(i, 1);  // each step is as long
+    EXPECT_NEAR(quality.lean_sigma_rad_per_m, std::hypot(of_calibration, by_outliers), 0.02 * by_outliers + 1e-12) << i;
+    if (i < DriveBehindACar::kAlone) {
+      EXPECT_LT(quality.lean_sigma_rad_per_m, 1.2 * of_calibration) << i;
+    }
+  }
+  const auto beside_the_car = stage.estimate(drive.frame(DriveBehindACar::kFrames)).quality;
+  EXPECT_GT(beside_the_car.lean_sigma_rad_per_m, 10.0 * of_calibration);
+}
+
 // Begun with just as many points as it needs, it loses the second image, and does not know the vehicle's speed in between.
 TEST(MotionStage, BeginsWithMorePointsThanItNeeds) {
   constexpr double kSmall_m2 = 0.05 * 0.05;

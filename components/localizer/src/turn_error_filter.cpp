@@ -11,7 +11,7 @@ constexpr double kMinTurn_rad = 0.02, kMinWay_m = 0.5;  // below both, other err
 constexpr double kMinScaleVariance = 1e-6;              // the compass misses as much of a turn
 // What a lean turns until it is another one. It lasts while the same points are in view, and a camera with a smaller
 // baseline or focal length leans more, but measures only nearer ones: both by the same factor. With a disparity error of
-// 0.007 px, it lasts for the distance at which the disparity is one pixel.
+// 0.002 px, it lasts for 3.5 times the distance at which the disparity is one pixel.
 constexpr double kLastingTurn_rad = 0.007;
 constexpr double kTurnOutlier = 4.0 * 4.0;  // squared standard deviations
 
@@ -22,9 +22,8 @@ TurnErrorFilter::TurnErrorFilter(double scale_sigma, double lean_sigma_rad_m)
       covariance_(Eigen::Vector2d(scale_sigma * scale_sigma, lean_sigma_rad_m * lean_sigma_rad_m).asDiagonal()) {}
 
 void TurnErrorFilter::expect_lean(double sigma_rad_m) {
-  if (has_learned_) return;
   lean_sigma_rad_m_ = sigma_rad_m;
-  covariance_(1, 1) = sigma_rad_m * sigma_rad_m;
+  if (!has_learned_) covariance_(1, 1) = sigma_rad_m * sigma_rad_m;
 }
 
 TurnErrorChange TurnErrorFilter::add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2) {

@@ -97,6 +97,20 @@ TEST(TurnErrorFilter, ExpectsTheLeanThatIsStatedBeforeTheFirstMeasurement) {
   EXPECT_EQ(std::sqrt(filter.covariance()(1, 1)), learned);
 }
 
+TEST(TurnErrorFilter, LearnsALeanThatBeginsOnTheWay) {
+  constexpr double kWay_m = 4.0, kLean = 5e-4;
+  const auto drive = [&](TurnErrorFilter& filter, double way_m, double lean_rad_m) {
+    for (double at_m = 0.0; at_m < way_m; at_m += kWay_m) {
+      filter.add(filter.error_rad(0.0, kWay_m) - lean_rad_m * kWay_m, 0.0, kWay_m, 1e-6);
+    }
+  };
+  TurnErrorFilter filter(0.003, 4e-5);
+  drive(filter, 400.0, 0.0);
+  filter.expect_lean(1e-3);  // rain begins
+  drive(filter, 60.0, kLean);
+  EXPECT_NEAR(filter.lean_rad_m(), kLean, 0.1 * kLean);
+}
+
 /// Squared error of the heading over its variance, on a way without compass after one with it, of a lean that changes.
 double nees_without_compass(unsigned seed, double lean_sigma_rad_m, int way_m) {
   constexpr double kSigma_rad = 7e-4;

@@ -46,7 +46,8 @@ struct MotionParameters {
   double disparity_offset_step_px = 0.004;
   double motion_error_ratio = 0.012;
   double rotation_error_rad_per_m = 0.0002;
-  double rectification_error_px = 0.007;
+  double rectification_error_px = 0.002;
+  double outlier_lean_rad_per_m = 0.005;
   double keyframe_parallax_px = 15.0;
   double keyframe_shared_ratio = 0.75;
   double acceleration = 2.0;
@@ -77,6 +78,11 @@ struct MotionParameters {
           "standard deviation of lasting disparity errors that differ between the sides of the image: divided by focal "
           "length and baseline, what odometry turns per metre without noticing; stated in odometry/quality",
           1e-6, 10.0);
+    field(
+        &P::outlier_lean_rad_per_m, "outlier_lean_rad_per_m", "rad/m",
+        "the same per share of points that contradict the motion: in rain, behind dirt or beside vehicles, points that "
+        "agree with it are wrong, too",
+        0.0, 1.0);
     field(&P::keyframe_parallax_px, "keyframe_parallax_px", "px",
           "median feature motion above which a keyframe is created", 1.0, 200.0);
     field(&P::keyframe_shared_ratio, "keyframe_shared_ratio", "1",

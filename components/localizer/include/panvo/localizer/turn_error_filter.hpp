@@ -25,7 +25,8 @@ class TurnErrorFilter {
   /// Prior standard deviations.
   TurnErrorFilter(double scale_sigma, double lean_sigma_rad_m);
 
-  /// Replaces the prior standard deviation of the lean, before the first measurement only.
+  /// Standard deviation of the lean from now on, such as in rain. Before the first measurement it replaces the prior;
+  /// later the lean changes as such a lean does.
   void expect_lean(double sigma_rad_m);
 
   /// `disagreement_rad`: turn by panoramas minus turn by odometry between the same two times, the latter corrected by
