@@ -57,12 +57,15 @@ void Channel::add_publisher(const void* owner, const std::string& owner_name,
   }
   std::unique_ptr<BridgeWriter> opened;
   if (bridge_ && !writer_) opened = bridge_->open_writer(with(wanted));
-  const std::unique_lock lock(mutex_);
-  offered_ = wanted;
-  publishers_[owner] = owner_name;
+  {
+    const std::unique_lock lock(mutex_);
+    offered_ = wanted;
+    publishers_[owner] = owner_name;
+  }
   if (!opened) return;
+  const std::unique_lock writing_lock(writing_mutex_);
   writer_ = std::move(opened);
-  const std::lock_guard sending_lock(sending_mutex_);
+  sends_history_ = history_.keeps_all() && wanted.durability == Durability::kTransientLocal;
   sent_ = 0;
   has_sent_all_ = false;
 }
@@ -70,14 +73,16 @@ void Channel::add_publisher(const void* owner, const std::string& owner_name,
 void Channel::remove_publisher(const void* owner) {
   send_history();
   const std::lock_guard writer_lock(bridge_writer_mutex_);
-  std::unique_ptr<BridgeWriter> closed;  // after mutex_ is released
-  const std::unique_lock lock(mutex_);
-  publishers_.erase(owner);
-  if (!publishers_.empty()) return;
+  {
+    const std::unique_lock lock(mutex_);
+    publishers_.erase(owner);
+    if (!publishers_.empty()) return;
+    // A latched state expires with its publisher: later readers must not get it.
+    if (topic().qos.lifespan.count() != 0) history_.forget_those_from_here();
+  }
+  std::unique_ptr<BridgeWriter> closed;  // after writing_mutex_ is released
+  const std::unique_lock writing_lock(writing_mutex_);
   closed = std::move(writer_);
-  if (topic().qos.lifespan.count() == 0) return;
-  // A latched state expires with its publisher: later readers must not get it.
-  history_.forget_those_from_here();
 }
 
 bool Channel::has_publisher_other_than(const void* owner) const {
@@ -178,10 +183,13 @@ void Channel::publish(const SamplePtr& published) {
   const Verdict verdict = check(sample);
   deliver(sample, verdict, true);
   if (verdict == Verdict::kInvalid) return;
-  const std::shared_lock lock(mutex_);
-  for (const auto& observer : observers_) observer(topic(), sample);
+  {
+    const std::shared_lock lock(mutex_);
+    for (const auto& observer : observers_) observer(topic(), sample);
+  }
+  const std::shared_lock writing_lock(writing_mutex_);
   if (!writer_) return;
-  if (!sends_history()) {
+  if (!sends_history_) {
     if (!writer_->write(sample)) ++not_sent_;
     return;
   }
@@ -191,18 +199,14 @@ void Channel::publish(const SamplePtr& published) {
   }
 }
 
-bool Channel::sends_history() const {
-  return history_.keeps_all() && offered_.durability == Durability::kTransientLocal;
-}
-
 /// Most systems have no other process that reads such a topic: its messages then need no memory in the writer. One that
 /// reads without asking for earlier messages gets them, too, if it is the first.
 void Channel::send_history() {
   for (bool is_left = true; is_left;) {
-    const std::shared_lock lock(mutex_);
-    if (!sends_history()) return;
+    const std::shared_lock writing_lock(writing_mutex_);
+    if (!writer_ || !sends_history_) return;
     const std::lock_guard sending_lock(sending_mutex_);
-    if (!writer_ || has_sent_all_ || writer_->matched_readers() == 0) return;
+    if (has_sent_all_ || writer_->matched_readers() == 0) return;
     is_left = send_next();
     has_sent_all_ = !is_left;
   }
@@ -285,14 +289,14 @@ std::string Channel::shown_sender(const std::string& sender) const {
 
 bool Channel::wait_for_acknowledgments(std::chrono::milliseconds limit) {
   send_history();
-  const std::shared_lock lock(mutex_);
+  const std::shared_lock writing_lock(writing_mutex_);
   return !writer_ || writer_->wait_for_acknowledgments(limit);
 }
 
 Channel::Counters Channel::counters() const {
   Counters counters{.published = published_, .not_sent = not_sent_};
   {
-    const std::shared_lock lock(mutex_);
+    const std::shared_lock writing_lock(writing_mutex_);
     if (writer_) counters.remote_readers = writer_->matched_readers();
   }
   const std::lock_guard lock(bridge_reader_mutex_);

@@ -96,7 +96,6 @@ class Channel {
   interfaces::Qos agreed_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants) const;
   void close_bridge_reader();
   void pass_history_to(const Member& reader);
-  bool sends_history() const;
   bool send_next();
 
   const TopicDescription opened_;  // as the first user described it
@@ -121,11 +120,17 @@ class Channel {
   std::vector<Member> readers_;
   std::vector<Reader> observers_;
   interfaces::Qos offered_, requested_;  // of publishers and readers of this process
-  std::unique_ptr<BridgeWriter> writer_;
   LatchedHistory history_;
-  std::mutex sending_mutex_;   // guards what the writer has of a history that keeps all
-  std::uint64_t sent_ = 0;     // number of its last message
-  bool has_sent_all_ = false;  // new messages follow at once
+
+  // Shared: writing; exclusive: a change of the writer. Never held together with mutex_: a written message goes to a
+  // reader of the same process under that reader's lock in Fast DDS, under which its receiving thread comes to deliver.
+  mutable std::shared_mutex writing_mutex_;
+  std::unique_ptr<BridgeWriter> writer_;
+  bool sends_history_ = false;  // by send_history(), not as messages are published
+  std::mutex sending_mutex_;    // among those that write: guards what the writer has of a history that keeps all
+  std::uint64_t sent_ = 0;      // number of its last message
+  bool has_sent_all_ = false;   // new messages follow at once
+
   std::atomic<std::uint64_t> published_ = 0, not_sent_ = 0;
 
   std::unique_ptr<BridgeReader> bridge_reader_;  // opened with the first reader, closed after the last

@@ -42,6 +42,7 @@ SamplePtr received() { return Sample::from_bytes(text_topic().type, text_topic()
 class ScriptedBridge : public IdleBridge {
  public:
   std::function<void()> while_writer_opens = [] {}, while_writer_closes = [] {}, while_reader_is_asked = [] {};
+  std::function<void()> while_writer_writes = [] {};
   std::vector<Qos> opened_readers;
   std::atomic<int> writers = 0, readers = 0;
   bool has_latched = false;  // a message of another process, for each new reader
@@ -67,7 +68,10 @@ class ScriptedBridge : public IdleBridge {
       bridge.while_writer_closes();
       --bridge.writers;
     }
-    bool write(const SamplePtr&) override { return true; }
+    bool write(const SamplePtr&) override {
+      bridge.while_writer_writes();
+      return true;
+    }
     std::size_t matched_readers() const override { return 0; }
     bool wait_for_acknowledgments(std::chrono::milliseconds) override { return true; }
     ScriptedBridge& bridge;
@@ -106,6 +110,22 @@ TEST_F(BridgedChannel, ReceivesWhileItsWriterIsOpenedAndClosed) {
   EXPECT_THAT(are_delivered, ElementsAre(true, true));
   deliveries.clear();  // joins
   EXPECT_EQ(seen, 2);
+}
+
+/// To write, Fast DDS may wait for its receiving thread, which delivers, and that for one who changes the readers.
+TEST_F(BridgedChannel, LetsReadersComeAndGoWhileItWrites) {
+  channel.add_publisher(&first, "writer");
+  std::future<void> change;
+  bool is_changed = false;
+  bridge.while_writer_writes = [&] {
+    change = std::async(std::launch::async, [&] {
+      channel.add_reader(&second, ignore);
+      channel.remove_reader(&second);
+    });
+    is_changed = change.wait_for(std::chrono::seconds(10)) == std::future_status::ready;
+  };
+  channel.publish(received());
+  EXPECT_TRUE(is_changed);
 }
 
 TEST_F(BridgedChannel, HasNoPublisherWhoseWriterCannotBeOpened) {
