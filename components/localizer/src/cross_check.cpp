@@ -19,7 +19,6 @@ constexpr double kLongestInterval_s = 2.0;  // of panoramas: at longer ones, too
 constexpr double kImpossible = 6.0;         // standard deviations of usual vehicle motion
 
 constexpr double kDirectionError_rad = 0.01;     // of panoramas, in addition to their stated error
-constexpr double kAlike_rad = 0.005;             // error common to the directions of all panoramas of a journey
 constexpr double kCameraApart_m = 1.0;           // from base_link, which in a bend moves in another direction
 constexpr double kMinWay_m = 0.1;                // for a defined direction
 constexpr double kClearlyMoved_m = 0.5;          // far enough to be visible in objects beside the path
@@ -28,10 +27,7 @@ constexpr double kFarthest_m = 1000.0;           // what moves less beside the p
 constexpr double kStandingReach = 3.0;           // standard deviations of the turn, which looks like motion there
 constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // objects beside the path are farther away, in the median
 constexpr double kApart = 3.0;                            // standard deviations: of two explanations, only one
-constexpr double kSameAngle_rad = 0.1, kSameSigma_rad = kSameAngle_rad / 3.0;
 constexpr double kLasting_m = 30.0;
-// A stereo camera mounted so far askew shows it in its path; a panoramic camera looks the same at any rotation.
-constexpr double kNoStereoMount_rad = 10.0 * vision::kDegree;
 
 double azimuth_of(const Eigen::Vector2d& way) { return std::atan2(way.y(), way.x()); }
 
@@ -155,34 +151,6 @@ std::vector<Doubt> CrossCheck::doubts(std::int64_t now_ns) const {
   return doubts;
 }
 
-/// One of the two cameras is rotated by that angle; which one is unknown. As long as the panoramas do not contradict it,
-/// the stereo mount is known at least as well as it was measured; without panoramas it is trusted.
-double CrossCheck::direction_sigma_rad() const {
-  const DirectionOffset offset = latest_offset();
-  if (!offset.is_measured()) return 0.0;
-  const double off_rad = std::abs(offset.estimate_rad());
-  const double turned_rad = off_rad > kNoStereoMount_rad ? 0.0 : std::max(0.0, off_rad - kAlike_rad);
-  const double noise_rad = std::sqrt(offset.variance_rad2());
-  return std::hypot(turned_rad,
-                    stereo_mounting_sigma_rad_ * noise_rad / std::hypot(stereo_mounting_sigma_rad_, noise_rad));
-}
-
-std::optional<MountDirection> CrossCheck::mount_direction() const {
-  if (lasting_ && lasting_->way_m > 0.0) {
-    return MountDirection{vision::wrapped(lasting_->seen_rad + camera_turned_rad_), kSameSigma_rad * kSameSigma_rad};
-  }
-  const DirectionOffset offset = latest_offset();
-  if (!offset.is_measured()) return std::nullopt;
-  return MountDirection{vision::wrapped(offset.estimate_rad() + camera_turned_rad_), offset.variance_rad2()};
-}
-
-/// With the last panorama.
-DirectionOffset CrossCheck::latest_offset() const {
-  DirectionOffset offset = direction_offset_;
-  if (seen_) offset.add(seen_->difference_rad, seen_->variance_rad2);
-  return offset;
-}
-
 auto CrossCheck::moved(const OdometryBuffer& chain, std::int64_t from_ns, std::int64_t to_ns)
     -> std::optional<TurnAndWay> {
   const auto from = chain.at(from_ns), to = chain.at(to_ns);
@@ -263,9 +231,10 @@ auto CrossCheck::judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& 
     return verdict;
   }
   const auto [seen_rad, variance] = seen_directions(azimuth, odometry, way_variance_m2);
-  const double difference_rad = vision::wrapped(seen_rad - direction_offset_.estimate_rad());
-  const double max_rad = contradiction_sigmas_ * std::sqrt(variance + direction_offset_.variance_rad2());
-  if (std::abs(difference_rad) <= max_rad) {
+  const DirectionOffset offset = offset_before({seen_rad, variance});
+  verdict.is_other_mounting = direction_offset_.is_only_remembered() && !offset.is_only_remembered();
+  const double difference_rad = vision::wrapped(seen_rad - offset.estimate_rad());
+  if (std::abs(difference_rad) <= allowed_rad(variance, offset)) {
     if (!turn_dispute_.is_on()) verdict.seen = Seen{seen_rad, variance};
     verdict.lasting.reset();
     return verdict;
@@ -283,24 +252,12 @@ auto CrossCheck::judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& 
 }
 
 void CrossCheck::take(const WayVerdict& verdict) {
+  if (verdict.is_other_mounting) direction_offset_.forget_memory();
   if (verdict.seen) seen_ = verdict.seen;
   lasting_ = verdict.lasting;
   if (verdict.new_offset)
     direction_offset_.restart(verdict.new_offset->difference_rad, verdict.new_offset->variance_rad2);
   if (verdict.camera_turned_rad) camera_turned_rad_ = *verdict.camera_turned_rad;
-}
-
-/// How long the directions have differed by one angle. If for long, the cause must be a camera's mounting.
-auto CrossCheck::lasting_with(std::int64_t reference_ns, double seen_rad, double length_m) const -> Lasting {
-  if (!lasting_ || std::abs(vision::wrapped(seen_rad - lasting_->seen_rad)) > kSameAngle_rad) {
-    return {reference_ns, seen_rad, 0.0};
-  }
-  Lasting longer = *lasting_;
-  if (longer.reference_ns != reference_ns) {
-    longer.reference_ns = reference_ns;
-    longer.way_m += length_m;
-  }
-  return longer;
 }
 
 /// Odometry that lost all its points and restarted in the next image did not measure the motion between. Panoramas that

@@ -37,6 +37,18 @@ bool LocalPoseGraph::has_only_start() const {
          std::all_of(std::next(nodes_.begin()), nodes_.end(), [](const Node& node) { return node.fix; });
 }
 
+void LocalPoseGraph::expect_scale(const Estimate& scale) {
+  scale_ = scale;
+  expected_scale_ = scale.value;
+  scale_sigma_ = scale.sigma;
+}
+
+std::optional<Estimate> LocalPoseGraph::measured_scale() const {
+  const bool is_measured =
+      enu_ && scale_.sigma > 0.0 && 2.0 * scale_.sigma * scale_.sigma < scale_sigma_ * scale_sigma_;
+  return is_measured ? std::optional(scale_) : std::nullopt;
+}
+
 void LocalPoseGraph::start(const OdometrySample& at) {
   start_.map_from_base = at.pose.odom_from_base;
   Node node;

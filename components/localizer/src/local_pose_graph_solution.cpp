@@ -51,8 +51,9 @@ bool LocalPoseGraph::solve() {
   for (std::size_t i = 1; i < order.size(); ++i) {
     const auto& a = nodes_[order[i - 1]].at;
     const auto& b = nodes_[order[i]].at;
-    graph.edges.push_back({order[i - 1], order[i], a.pose.odom_from_base.inverse() * b.pose.odom_from_base,
-                           with_least_variance(way_covariance(a, b)), false, true});
+    const Eigen::Isometry3d way =
+        enu_ ? a.pose.odom_from_base.inverse() * b.pose.odom_from_base : way_between(a.pose, b.pose);
+    graph.edges.push_back({order[i - 1], order[i], way, with_least_variance(way_covariance(a, b)), false, true});
   }
   std::map<std::uint32_t, std::size_t> landmarks;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -127,6 +128,7 @@ void LocalPoseGraph::add_fixes(PoseGraph& graph, const std::vector<std::size_t>&
     graph.priors.push_back({enu, level, unknown_enu()});
   }
   graph.scale = scale_.value;
+  graph.expected_scale = expected_scale_;
   graph.scale_sigma = scale_sigma_;
   graph.delay = delay_.value;
   graph.delay_sigma = fix_parameters_.delay_sigma_s;

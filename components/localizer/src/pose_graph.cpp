@@ -139,7 +139,7 @@ struct Problem {
       blocks.push_back(to_block(pose));
       problem.AddParameterBlock(blocks.back().data(), 7, new Manifold);
     }
-    add_number(graph.scale, 1.0, graph.scale_sigma, scale);
+    add_number(graph.scale, graph.expected_scale, graph.scale_sigma, scale);
     add_number(graph.delay, 0.0, graph.delay_sigma, delay);
     for (const auto& edge : graph.edges) {
       check(edge.from);

@@ -18,12 +18,25 @@ constexpr double kTurnOutlier = 4.0 * 4.0;  // squared standard deviations
 }  // namespace
 
 TurnErrorFilter::TurnErrorFilter(double scale_sigma, double lean_sigma_rad_m)
-    : lean_sigma_rad_m_(lean_sigma_rad_m),
+    : scale_sigma_(scale_sigma),
+      lean_sigma_rad_m_(lean_sigma_rad_m),
       covariance_(Eigen::Vector2d(scale_sigma * scale_sigma, lean_sigma_rad_m * lean_sigma_rad_m).asDiagonal()) {}
 
 void TurnErrorFilter::expect_lean(double sigma_rad_m) {
   lean_sigma_rad_m_ = sigma_rad_m;
   if (!has_learned_) covariance_(1, 1) = sigma_rad_m * sigma_rad_m;
+}
+
+void TurnErrorFilter::expect_scale(double scale, double sigma) {
+  if (has_learned_) return;
+  state_[0] = scale;
+  scale_sigma_ = sigma;
+  covariance_(0, 0) = sigma * sigma;
+}
+
+std::optional<Estimate> TurnErrorFilter::measured_scale() const {
+  if (!has_learned_ || 2.0 * covariance_(0, 0) > scale_sigma_ * scale_sigma_) return std::nullopt;
+  return Estimate{state_[0], std::sqrt(covariance_(0, 0))};
 }
 
 TurnErrorChange TurnErrorFilter::add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2) {

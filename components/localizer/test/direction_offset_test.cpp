@@ -46,5 +46,19 @@ TEST(DirectionOffset, KnowsFromTheBeginningWhatIsSaidToBeExact) {
   EXPECT_EQ(offset.variance_rad2(), 0.0);
 }
 
+TEST(DirectionOffset, ForgetsWhatAnEarlierJourneyFoundAsIfItHadNever) {
+  DirectionOffset offset(0.5);
+  offset.remember(0.1, 1e-4);
+  EXPECT_FALSE(offset.is_measured());
+  EXPECT_EQ(offset.estimate_rad(), 0.1);
+  offset.forget_memory();
+  EXPECT_FALSE(offset.is_only_remembered());
+  EXPECT_EQ(offset.estimate_rad(), 0.0);
+  EXPECT_EQ(offset.variance_rad2(), 0.25);
+  offset.remember(0.1, 1e-4);
+  offset.add(0.1, 1e-4);
+  EXPECT_FALSE(offset.is_only_remembered());
+}
+
 }  // namespace
 }  // namespace panvo::localizer

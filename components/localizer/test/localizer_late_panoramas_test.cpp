@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "panvo/localizer/localizer.hpp"
 #include "winding_drive.hpp"
@@ -89,6 +90,53 @@ TEST(LocalizerWithLatePanoramas, KnowsThePositionAheadWithOneClock) {
   road.drive();
   ASSERT_EQ(road.localizer.latest().state, State::kTracking);
   EXPECT_LT(road.sigma_ahead_m(), 0.05);
+}
+
+SelfCalibration of_late_panoramas(double ahead_s) {
+  SelfCalibration measured;
+  measured.panorama_ahead_s = Estimate{ahead_s, 0.004};
+  return measured;
+}
+
+TEST(LocalizerWithLatePanoramas, KnowsOnAStraightRoadThatTheyAreAsLateAsOnTheLastJourney) {
+  constexpr double kAgo_s = 0.3;
+  OnAStraightRoad first_day(kAgo_s), second_day(kAgo_s + 0.02);
+  second_day.localizer.set_self_calibration(of_late_panoramas(kAgo_s));
+  first_day.drive();
+  second_day.drive();
+  EXPECT_LT(first_day.off_m(), -0.9 * kStraightSpeed * kAgo_s) << "nothing shows it";
+  EXPECT_NEAR(second_day.off_m(), -kStraightSpeed * 0.02, 0.02);
+  EXPECT_NEAR(second_day.sigma_ahead_m(), first_day.sigma_ahead_m(), 0.01) << "it may have changed";
+  EXPECT_FALSE(second_day.localizer.is_clock_known()) << "by this journey";
+  EXPECT_FALSE(second_day.localizer.self_calibration().panorama_ahead_s);
+}
+
+TEST(LocalizerWithLatePanoramas, FindsThatTheyAreNotAsLateAsOnTheLastJourney) {
+  for (const auto& [remembered_s, ahead_s] : {std::pair{0.3, 0.0}, std::pair{-1.0, 0.3}, std::pair{0.0, 1.5}}) {
+    Winding vehicle;
+    vehicle.localizer.set_self_calibration(of_late_panoramas(remembered_s));
+    vehicle.step_variance = 5e-6;  // so that the compass counts
+    vehicle.drive(0, 60, ahead_s);
+    ASSERT_FALSE(vehicle.localizer.is_clock_known());
+    vehicle.drive(60, 500, ahead_s);
+    ASSERT_TRUE(vehicle.localizer.is_clock_known()) << ahead_s;
+    EXPECT_NEAR(vehicle.localizer.panorama_clock().estimate_s(), ahead_s, 0.01);
+    const auto& here = vehicle.localizer.latest();
+    EXPECT_NEAR(yaw_of(here.map_from_base.linear()), Winding::yaw(Winding::time_s(499)), 0.002) << ahead_s;
+    EXPECT_LT((here.map_from_base.translation() - Winding::at(Winding::time_s(499)).translation()).norm(), 0.02)
+        << ahead_s;
+    const auto measured = vehicle.localizer.self_calibration().panorama_ahead_s;
+    ASSERT_TRUE(measured);
+    EXPECT_NEAR(measured->value, ahead_s, 0.01);
+  }
+}
+
+TEST(LocalizerWithLatePanoramas, TellsNothingOfAClockThatWasSet) {
+  Winding vehicle;
+  vehicle.drive(0, 500, 0.3);
+  ASSERT_TRUE(vehicle.localizer.self_calibration().panorama_ahead_s);
+  vehicle.localizer.set_clock_back(10'000'000'000);
+  EXPECT_FALSE(vehicle.localizer.self_calibration().panorama_ahead_s);
 }
 
 TEST(LocalizerWithLatePanoramas, FusesTheTurnsFromBeforeTheirClockWasKnownAgain) {

@@ -28,6 +28,16 @@ TEST(MountingHistory, TellsHowFarTheMountsHaveTurnedSinceALandmarkWasBuilt) {
   EXPECT_EQ(history.turned_rad(2), 0.0) << "it was turned back";
 }
 
+TEST(MountingHistory, TellsHowFarTheMountsHaveTurnedSinceTheJourneyBefore) {
+  MountingHistory history;
+  history.remember(MountDirection{0.1, 1e-4});
+  EXPECT_EQ(history.turned_rad(1), 0.0) << "nothing is measured";
+  history.add(20, MountDirection{0.3, 1e-4});
+  history.add_built(2, 20);
+  EXPECT_NEAR(history.turned_rad(1), 0.2 - kError_rad, 1e-12);
+  EXPECT_EQ(history.turned_rad(2), 0.0);
+}
+
 TEST(MountingHistory, CountsNoErrorsOfTheDirections) {
   MountingHistory history;
   EXPECT_EQ(history.turned_rad(1), 0.0) << "nothing is known";

@@ -15,6 +15,7 @@
 #include "panvo/localizer/direction_offset.hpp"
 #include "panvo/localizer/dispute.hpp"
 #include "panvo/localizer/doubt.hpp"
+#include "panvo/localizer/estimate.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/mounting_history.hpp"
 #include "panvo/localizer/odometry_buffer.hpp"
@@ -87,6 +88,10 @@ class CrossCheck {
   /// Of the two mounts, with what has lasted for some panoramas; nullopt while it is not measured.
   std::optional<MountDirection> mount_direction() const;
   const DirectionOffset& direction_offset() const noexcept { return direction_offset_; }
+  /// As an earlier journey found it, unless the first panoramas show another one.
+  void remember_direction(const Estimate& rad) { direction_offset_.remember(rad.value, rad.sigma * rad.sigma); }
+  /// Of the two mounts as they are now, once it is certain.
+  std::optional<Estimate> settled_direction() const;
   /// As it was before panoramas that are added again.
   void set_direction_offset(const DirectionOffset& offset) { direction_offset_ = offset; }
   /// Whether a panorama of this time tells something of now: at slow cameras, the next one is not due yet.
@@ -116,6 +121,7 @@ class CrossCheck {
   struct WayVerdict {                         // on odometry's path along a stretch
     std::optional<double> off_m;              // deviation from the panoramas; nullopt if they agree
     std::optional<Seen> seen;                 // a difference of directions within the errors
+    bool is_other_mounting = false;           // than what is remembered
     std::optional<Lasting> lasting;           // lasting_ from now on
     std::optional<Seen> new_offset;           // of the mounting
     std::optional<double> camera_turned_rad;  // camera_turned_rad_ from now on
@@ -156,6 +162,8 @@ class CrossCheck {
   Seen seen_directions(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
   Blame judge_turn(const OdometryBuffer& chain, std::int64_t to_ns, const Disagreement& turns) const;
   DirectionOffset latest_offset() const;
+  double allowed_rad(double variance_rad2, const DirectionOffset& offset) const;
+  DirectionOffset offset_before(const Seen& seen) const;
   WayVerdict judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
   void take(const WayVerdict& verdict);
   void look_for_jump(const OdometryBuffer& chain);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "panvo/localizer/estimate.hpp"
 #include "panvo/localizer/gnss_fix.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/odometry_buffer.hpp"
@@ -35,11 +36,6 @@ struct LandmarkSighting {
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  ///< of base_link, in its axes: what a wrong stamp changes
 };
 
-/// A number with its standard deviation.
-struct Estimate {
-  double value = 0.0, sigma = 0.0;
-};
-
 struct PoseInMap {
   Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
@@ -52,6 +48,8 @@ class LocalPoseGraph {
   /// Standard deviations of the initial pose of a map, and of the odometry's scale, which satellites correct.
   LocalPoseGraph(double start_sigma_m, double start_sigma_rad, double scale_sigma, const GnssParameters& fixes);
 
+  /// The odometry's scale is known. Before the start.
+  void expect_scale(const Estimate& scale);
   void start(const OdometrySample& at);
   void set_turn_errors(const TurnErrors& errors) { turn_errors_ = errors; }
   /// Standard deviation of the direction of the odometry's path relative to the vehicle.
@@ -83,8 +81,10 @@ class LocalPoseGraph {
   void add_fix(const GnssFix& fix, const OdometrySample& at);
   /// Pose of the frame of the satellites in the map; precondition: has_enu().
   PoseInMap map_from_enu() const { return {enu_->map_from_enu, enu_->covariance}; }
-  /// By satellites: measured over true length of the odometry; 1 without them.
+  /// Measured over true length of the odometry, by satellites or as expected.
   const Estimate& scale() const noexcept { return scale_; }
+  /// The same once satellites have halved its variance.
+  std::optional<Estimate> measured_scale() const;
   /// Of the stamps of fixes behind the odometry's clock, s.
   const Estimate& fix_delay() const noexcept { return delay_; }
   /// enu_from_base of an odometry pose. Precondition: has_enu().
@@ -202,7 +202,7 @@ class LocalPoseGraph {
   vision::Matrix6d way_covariance(const OdometrySample& from, const OdometrySample& to) const;
 
   PoseInMap start_;  // what is known of the first node; its covariance is that of a new map
-  double scale_sigma_;
+  double expected_scale_ = 1.0, scale_sigma_;
   GnssParameters fix_parameters_;
   TurnErrors turn_errors_;
   double direction_sigma_rad_ = 0.0;
@@ -211,7 +211,7 @@ class LocalPoseGraph {
   std::vector<std::int64_t> cuts_ns_;
   bool is_placed_ = false;  // the map is not the one that began with the journey
   std::optional<Enu> enu_;
-  Estimate scale_{1.0, 0.0};  // of the odometry
+  Estimate scale_{1.0, 0.0};  // of the odometry; without satellites as expected
   Estimate delay_{0.0, 0.0};  // of the fixes, s
 };
 

@@ -21,6 +21,7 @@
 #include "panvo/localizer/mounting_history.hpp"
 #include "panvo/localizer/odometry_buffer.hpp"
 #include "panvo/localizer/odometry_origin.hpp"
+#include "panvo/localizer/self_calibration.hpp"
 #include "panvo/localizer/turn_error_filter.hpp"
 #include "panvo/localizer/yaw_bias_detector.hpp"
 #include "panvo/vision/clock_search.hpp"
@@ -95,6 +96,11 @@ class Localizer {
  public:
   explicit Localizer(const Parameters& parameters);
 
+  /// Begins with what an earlier journey measured of the sensors, until this one measures it. Before the first odometry.
+  void set_self_calibration(const SelfCalibration& measured);
+  /// What this journey has measured of them.
+  SelfCalibration self_calibration() const;
+
   /// Poses in order of stamps. Without effect: a stamp not later than the last, a pose with a fault (fault_of), or one
   /// that no vehicle can reach (OdometryOrigin).
   OdometryOutcome add(const OdometryPose& received);
@@ -130,7 +136,7 @@ class Localizer {
   /// Latest enu_from_base, and the map in that frame. Precondition: has_enu().
   PoseInMap latest_in_enu() const;
   PoseInMap map_from_enu() const { return graph_.map_from_enu(); }
-  /// Odometry's length over the true one, by satellites; 1 without them.
+  /// Odometry's length over the true one, by satellites of this journey or an earlier one; 1 without them.
   const Estimate& scale() const noexcept { return graph_.scale(); }
   /// Of the stamps of fixes behind the odometry's clock, s.
   const Estimate& fix_delay() const noexcept { return graph_.fix_delay(); }

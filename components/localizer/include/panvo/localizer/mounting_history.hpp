@@ -20,13 +20,15 @@ class MountingHistory {
  public:
   /// The direction at a panorama; nullopt, without effect, while it is not measured.
   void add(std::int64_t panorama_ns, const std::optional<MountDirection>& direction);
+  /// The direction at the end of the journey before.
+  void remember(const MountDirection& direction) { first_ = direction; }
   /// A landmark was built from a panorama; that may become known later.
   void add_built(std::uint32_t landmark_id, std::int64_t panorama_ns);
   /// The clock was set back: stamps of before are of another time.
   void forget_stamps();
 
   /// How far the mounts have turned since the landmark was built, as far as it exceeds the errors of both directions.
-  /// For landmarks of earlier journeys, or built before the direction was known: since it is known.
+  /// For landmarks of earlier journeys, or built before the direction was known: since it is known or remembered.
   double turned_rad(std::uint32_t landmark_id) const;
 
  private:

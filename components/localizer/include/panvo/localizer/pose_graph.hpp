@@ -43,8 +43,8 @@ class PoseGraph {
   std::vector<Edge> edges;
   std::vector<Prior> priors;
   std::vector<Fix> fixes;
-  double scale = 1.0;        ///< of scaled edges: measured over true length; initial value on input
-  double scale_sigma = 0.0;  ///< its prior around 1; 0: it stays
+  double scale = 1.0;  ///< of scaled edges: measured over true length; initial value on input
+  double expected_scale = 1.0, scale_sigma = 0.0;  ///< its prior; 0: it stays
   double delay = 0.0;        ///< of the poses of all fixes after the point was there; initial value on input
   double delay_sigma = 0.0;  ///< its prior around 0; 0: it stays
 

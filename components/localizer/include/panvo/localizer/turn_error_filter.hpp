@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+
+#include "panvo/localizer/estimate.hpp"
 
 namespace panvo::localizer {
 
@@ -29,6 +32,9 @@ class TurnErrorFilter {
   /// later the lean changes as such a lean does.
   void expect_lean(double sigma_rad_m);
 
+  /// Replaces the prior of the scale, before the first measurement only.
+  void expect_scale(double scale, double sigma);
+
   /// `disagreement_rad`: turn by panoramas minus turn by odometry between the same two times, the latter corrected by
   /// error_rad(); `turn_rad`, `way_m`: by odometry; `variance_rad2`: of the disagreement of exact odometry.
   TurnErrorChange add(double disagreement_rad, double turn_rad, double way_m, double variance_rad2);
@@ -43,6 +49,8 @@ class TurnErrorFilter {
   double error_rad(double turn_rad, double way_m) const noexcept { return state_[0] * turn_rad + state_[1] * way_m; }
   /// 0.003: odometry turns 0.3 % more than the vehicle.
   double scale() const noexcept { return state_[0]; }
+  /// The same once measurements have halved its variance.
+  std::optional<Estimate> measured_scale() const;
   double lean_rad_m() const noexcept { return state_[1]; }
   const Eigen::Matrix2d& covariance() const noexcept { return covariance_; }
   TurnErrors errors() const { return {covariance_, lean_memory_m()}; }
@@ -56,7 +64,7 @@ class TurnErrorFilter {
   double lean_variance_after(double way_m) const;
   double heading_variance_after(double way_m) const;
 
-  double lean_sigma_rad_m_;
+  double scale_sigma_, lean_sigma_rad_m_;
   bool has_learned_ = false;
   double unlearned_m_ = 0.0;                         // way since the last measurement
   double unseen_m_ = 0.0;                            // way since the last turn that the compass measured
