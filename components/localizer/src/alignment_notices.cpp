@@ -19,6 +19,8 @@ constexpr int kManyTurns = 15;
 constexpr double kInBends_s = 4.0;
 constexpr double kNotableDirection_rad = 0.03;
 constexpr double kSureDirection_rad = 0.006;
+constexpr double kNoPanorama_s = 10.0;
+constexpr double kUnlocatedFor_m = 500.0;  // by then a mapped place should have been passed
 
 }  // namespace
 
@@ -78,6 +80,18 @@ void AlignmentNotices::report_mounting(const ExtrinsicsMonitor& mounting) {
         "the panoramic camera is {:+.2f} m forward and {:+.2f} m to the left relative to /tf_static, or the stereo "
         "camera by the opposite distances: measure the extrinsics",
         misalignment->forward_m, misalignment->left_m);
+  }
+}
+
+void AlignmentNotices::report_missing(const Localizer& localizer, std::optional<std::int64_t> azimuth_ns) const {
+  if (localizer.latest().state == State::kUnlocated && localizer.way_m() > kUnlocatedFor_m) {
+    log_.warn_throttled("nothing recognised",
+                        "no landmark of the loaded map was recognised in {:.0f} m: is it a map of another area?",
+                        kUnlocatedFor_m);
+  }
+  if (azimuth_ns && vision::seconds(*azimuth_ns, localizer.latest().stamp_ns) > kNoPanorama_s) {
+    log_.warn_throttled("no panorama", "no panorama for {:.0f} s: the pose drifts with the stereo odometry",
+                        kNoPanorama_s);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "panvo/localizer/localizer.hpp"
 #include "panvo/runtime/logger.hpp"
@@ -9,7 +10,7 @@
 namespace panvo::localizer {
 
 /// Logs each clock offset or misalignment of the cameras that was detected on the journey once, an offset again when it
-/// has changed.
+/// has changed; and what it lacks.
 class AlignmentNotices {
  public:
   /// `log` must outlive it.
@@ -19,6 +20,8 @@ class AlignmentNotices {
   void report_clock(const Localizer& localizer, std::int64_t panorama_ns, AzimuthUse use);
   void report_direction(const DirectionOffset& offset);
   void report_mounting(const ExtrinsicsMonitor& mounting);
+  /// After an odometry pose: places or panoramas that do not come. `azimuth_ns`: stamp of the last turn, if any.
+  void report_missing(const Localizer& localizer, std::optional<std::int64_t> azimuth_ns) const;
 
  private:
   void report_offset(const ClockOffset& clock);

@@ -23,6 +23,7 @@ struct ComponentParameters {
   double path_period_s = 2.0;
   std::string last_pose_file;
   std::string georeference_file;
+  std::string self_calibration_file;
   double last_pose_s = 30.0;
 
   template <class Field>
@@ -50,6 +51,10 @@ struct ComponentParameters {
     field.path(&P::georeference_file, "georeference_file",
                "file in which the place of the map on earth is saved, if there are positions by satellites, and from "
                "which a later run in the stored map is located by them; empty: none");
+    field.path(
+        &P::self_calibration_file, "self_calibration_file",
+        "file in which is saved what turns out of the sensors, and with which a later run begins: clock and yaw of "
+        "the panoramic camera, errors of the odometry's turns and, by satellites, of its scale; empty: none");
     field(&P::last_pose_s, "last_pose_s", "s", "largest age of a pose to resume from", 0.0, 3600.0);
   }
 };

@@ -30,6 +30,7 @@
 #include "path_record.hpp"
 #include "pose_publisher.hpp"
 #include "satellites.hpp"
+#include "self_calibration_keeper.hpp"
 
 namespace panvo::localizer {
 
@@ -44,6 +45,7 @@ class LocalizerComponent final : public runtime::Component {
         timer_(context.times()),
         localizer_(parameters_.fusion),
         last_pose_(parameters_, context.is_again(), context.log()),
+        self_calibration_(context, parameters_.self_calibration_file, localizer_),
         notices_(context.log()),
         path_binocular_(parameters_.path_step_m, parameters_.path_period_s),
         path_enhanced_(parameters_.path_step_m, parameters_.path_period_s),
@@ -65,9 +67,7 @@ class LocalizerComponent final : public runtime::Component {
  private:
   static constexpr int kTick_ms = 100;
   static constexpr std::int64_t kNotableOffset_ns = 20'000'000;  // a vehicle moves a few centimetres in that time
-  static constexpr double kNoPanorama_s = 10.0;
-  static constexpr double kOfNow_s = 0.4;           // largest age of odometry whose stamps are of the host's clock
-  static constexpr double kUnlocatedFor_m = 500.0;  // by then a mapped place should have been passed
+  static constexpr double kOfNow_s = 0.4;  // largest age of odometry whose stamps are of the host's clock
 
   /// The odometry's clock was set back, or forward if negative: shifts all stored stamps. What waits is of the time
   /// before.
@@ -125,15 +125,8 @@ class LocalizerComponent final : public runtime::Component {
     satellites_.publish(stamp_ns, message.child_frame_id());
     publish_paths(stamp_ns, *pose);
     last_pose_.keep(localized, message.twist().twist());
-    if (localized.state == State::kUnlocated && localizer_.way_m() > kUnlocatedFor_m) {
-      context_.log().warn_throttled(
-          "nothing recognised",
-          "no landmark of the loaded map was recognised in {:.0f} m: is it a map of another area?", kUnlocatedFor_m);
-    }
-    if (azimuth_ns_ && vision::seconds(*azimuth_ns_, stamp_ns) > kNoPanorama_s) {
-      context_.log().warn_throttled("no panorama", "no panorama for {:.0f} s: the pose drifts with the stereo odometry",
-                                    kNoPanorama_s);
-    }
+    self_calibration_.keep(stamp_ns);
+    notices_.report_missing(localizer_, azimuth_ns_);
   }
 
   /// In the map's frame, or in that of the vehicle, as viewers publish it that follow the vehicle.
@@ -328,6 +321,7 @@ class LocalizerComponent final : public runtime::Component {
   conversions::StageTimer timer_;
   Localizer localizer_;
   LastPoseKeeper last_pose_;
+  SelfCalibrationKeeper self_calibration_;
   AlignmentNotices notices_;
   std::optional<conversions::OdometryListener> odometry_input_;
   OdometryClock clock_;
