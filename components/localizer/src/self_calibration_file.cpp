@@ -21,10 +21,10 @@ namespace {
 struct Line {
   const char* key;
   std::optional<Estimate> SelfCalibration::*quantity;
-  double unit;                     ///< of the file, in that of the quantity
-  double least, most, most_sigma;  /// in the file
-  const char* text;                ///< of the value times `times`, which is `from` if nothing is wrong
-  double times = 1.0, from = 0.0;
+  double unit;                     ///< of the numbers in the file, in that of the quantity
+  double least, most, most_sigma;  ///< of them
+  const char* text;                ///< for `times` * (value - `perfect`)
+  double times = 1.0, perfect = 0.0;
 };
 
 constexpr double kFarthest_s = vision::ClockSearch::kFarthest_s;
@@ -87,7 +87,7 @@ std::string to_text(const SelfCalibration& calibration) {
   for (const auto& line : kLines) {
     const auto& quantity = calibration.*line.quantity;
     if (!quantity) continue;
-    parts.push_back(fmt::format(fmt::runtime(line.text), line.times * (quantity->value / line.unit - line.from)));
+    parts.push_back(fmt::format(fmt::runtime(line.text), line.times * (quantity->value / line.unit - line.perfect)));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }

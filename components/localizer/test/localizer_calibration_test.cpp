@@ -30,7 +30,7 @@ TEST(LocalizerSelfCalibration, ReducesTheErrorOfTurnsBeforeTheCompassShowsIt) {
   constexpr int kFirstBends = 150, kNever = 1'000'000;
   Winding first_day;
   first_day.panoramas_per_reference = 4;
-  heading_error_rad(first_day, 0, 1500, kTooMuch);
+  heading_error_rad(first_day, 0, 3000, kTooMuch);
   const auto measured = first_day.localizer.self_calibration();
   ASSERT_TRUE(measured.turn_scale);
   EXPECT_NEAR(measured.turn_scale->value, kTooMuch, 3.0 * measured.turn_scale->sigma);
