@@ -84,6 +84,7 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
   const double turn_error_rad = turn_error_.error_rad(yaw_of(step.linear()), step.translation().norm());
   const double turn_variance_rad2 = chain_.empty() ? 0.0 : turn_error_.advance(step.translation().norm());
   chain_.add(odometry, turn_error_rad, least, turn_variance_rad2);
+  if (std::exchange(was_clock_set_, false)) doubt_step(step);
   check_.add_step(chain_);
   if (graph_.has_started()) {
     slew(turned_more(step, -turn_error_rad));
@@ -102,6 +103,15 @@ OdometryOutcome Localizer::add(const OdometryPose& received) {
   graph_.set_direction_sigma(check_.direction_sigma_rad());
   latest_ = localized(chain_.latest());
   return {.is_taken = true, .has_begun_anew = taken.is_new_origin, .reason = {}};
+}
+
+/// Over the latest step, poses of a new time were refused at first. From image to image, odometry may have mistaken the
+/// motion meanwhile without saying so.
+void Localizer::doubt_step(const Eigen::Isometry3d& step) {
+  const std::int64_t now_ns = chain_.latest().pose.stamp_ns;
+  const double time_s = vision::seconds(chain_.stamp_before_latest(1).value_or(now_ns), now_ns);
+  const double turn_rad = std::abs(yaw_of(step.linear())) + turn_sigma_rad(parameters_.motion, time_s);
+  chain_.allow(now_ns - 1, now_ns, step.translation().squaredNorm(), turn_rad * turn_rad);
 }
 
 bool Localizer::add_known(const KnownLandmark& landmark) {
@@ -139,6 +149,7 @@ bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
 void Localizer::set_clock_back(std::int64_t by_ns) {
   if (chain_.empty()) return;
   const double by_s = vision::seconds(0, by_ns);
+  was_clock_set_ = true;
   set_back_s_ += by_s;
   if (std::abs(by_s) < kMistakenFor_s) last_set_s_ = std::abs(by_s);
   origin_.set_clock_back(by_ns);

@@ -194,17 +194,13 @@ class LocalizerComponent final : public runtime::Component {
   }
 
   void wait(const PanoramaFact& fact) {
-    switch (clock_.panoramas_clock(stamp_of(fact), localizer_.latest().stamp_ns)) {
-      case OdometryClock::PanoramasClock::kAny:
-        break;
-      case OdometryClock::PanoramasClock::kAlike:
-        localizer_.trust_stamps();
-        break;
-      case OdometryClock::PanoramasClock::kAnother:
-        return context_.log().warn_throttled(
-            "panoramas of another clock",
-            "the clock of {} was set, but not that of the panoramas: they are not used until it is set, too",
-            context_.resolved_name(topics::kOdometryBinocular));
+    const auto clock = clock_.panoramas_clock(stamp_of(fact), localizer_.latest().stamp_ns);
+    if (clock == OdometryClock::PanoramasClock::kAlike) localizer_.trust_stamps();
+    if (clock == OdometryClock::PanoramasClock::kAnother) {
+      return context_.log().warn_throttled(
+          "panoramas of another clock",
+          "the clock of {} was set, but not that of the panoramas: they are not used until it is set, too",
+          context_.resolved_name(topics::kOdometryBinocular));
     }
     if (!waiting_.push(fact)) {
       context_.log().warn_throttled(

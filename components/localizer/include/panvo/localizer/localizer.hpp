@@ -240,6 +240,7 @@ class Localizer {
   double in_sums(double compass_variance_rad2) const {
     return parameters_.compass_correlation_ratio * compass_variance_rad2;
   }
+  void doubt_step(const Eigen::Isometry3d& step);
   void slew(const Eigen::Isometry3d& step);
 
   const Parameters parameters_;
@@ -250,6 +251,7 @@ class Localizer {
   vision::ClockDoubt clock_doubt_;
   bool is_clock_doubtful_ = false;            // it may have been stepped
   std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
+  bool was_clock_set_ = false;                // of the odometry, since its last pose
   double set_back_s_ = 0.0;                   // the odometry's clock, in all; 0 if its stamps are right all the same
   double last_set_s_ = 0.0;                   // by so much, last, unless panoramas have shown their clock since
   std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times
