@@ -17,24 +17,16 @@
 #include "udp_transport.hpp"
 
 namespace panvo::runtime::dds {
-namespace {
-
-/// One at a time: Fast DDS asks getpwuid() for the user's name, in memory that all threads share.
-fdds::DomainParticipant* create_participant(int domain, const fdds::DomainParticipantQos& qos, Discovery* discovery) {
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  // The mask is empty, as endpoints have their own listeners. Discovery is called anyway.
-  return fdds::DomainParticipantFactory::get_instance()->create_participant(static_cast<fdds::DomainId_t>(domain), qos,
-                                                                            discovery, fdds::StatusMask::none());
-}
-
-}  // namespace
 
 Participant::Participant(const DdsSettings& settings, Hears hears, std::shared_ptr<Discovery> discovery,
                          std::shared_ptr<LocalEndpoints> endpoints)
     : settings_(settings), discovery_(std::move(discovery)), endpoints_(std::move(endpoints)) {
+  std::unique_lock lock(factory_mutex());
   const auto qos = participant_qos(settings, hears);
-  participant_ = create_participant(settings.domain, qos, discovery_.get());
+  // The mask is empty, as endpoints have their own listeners. Discovery is called anyway.
+  participant_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
+      static_cast<fdds::DomainId_t>(settings.domain), qos, discovery_.get(), fdds::StatusMask::none());
+  lock.unlock();
   if (!participant_) {
     throw ConfigError(fmt::format(
         "cannot create a DDS participant in domain {}: check that there is a network interface (lo suffices) and that "

@@ -51,6 +51,7 @@ rtps::Locator_t locator_of(const std::string& host, const char* variable = "ROS_
   return locator;
 }
 
+// Called with factory_mutex() locked, as Fast DDS's own reading of the variable.
 #ifdef PANVO_FAST_DDS_3
 /// Of "HOST:PORT;HOST:PORT"; an entry may be empty.
 auto servers() {
@@ -162,6 +163,11 @@ void use_udp(fdds::DomainParticipantQos& qos, const DdsSettings& settings) {
 
 }  // namespace
 
+std::mutex& factory_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 void load_profiles(const DdsSettings& settings) {
   if (settings.domain < 0 || settings.domain > DdsSettings::kMaxDomain) {
     throw ConfigError(
@@ -170,6 +176,7 @@ void load_profiles(const DdsSettings& settings) {
   // Reports missing keys once instead of per topic.
   fdds::DomainParticipantQos tried;
   apply_security(security_settings_from_environment(), tried);
+  const std::lock_guard lock(factory_mutex());
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   factory->load_profiles();
   if (settings.profiles.empty()) return;
@@ -186,7 +193,10 @@ void load_profiles(const DdsSettings& settings) {
   factory->set_default_participant_qos(fdds::PARTICIPANT_QOS_DEFAULT);
 }
 
-bool has_discovery_server() { return !servers().empty(); }
+bool has_discovery_server() {
+  const std::lock_guard lock(factory_mutex());
+  return !servers().empty();
+}
 
 std::string silent_server_warning() {
   return fmt::format(
@@ -201,7 +211,10 @@ bool has_shared_memory() { return access(kSharedMemoryFolder, R_OK | W_OK | X_OK
 
 std::optional<std::string> profile_warning() {
   fdds::DomainParticipantQos qos;
-  fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
+  {
+    const std::lock_guard lock(factory_mutex());
+    fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
+  }
   if (std::ranges::none_of(qos.transport().user_transports, is_shared_memory)) return std::nullopt;
   return "the DDS profile has the transport SHM, which is ignored: with another build of Fast DDS (ROS 2's) on this "
          "machine it aborts the process. Images are shared without it, see shared_images_mb; other messages use UDP. "
@@ -228,7 +241,7 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears he
   if (discovery.leaseDuration_announcementperiod == default_period) {
     discovery.leaseDuration_announcementperiod = Duration(0, kAnnouncementPeriodNs);
   }
-  if (hears == Hears::kAll && has_discovery_server()) hear_of_all_topics(discovery);
+  if (hears == Hears::kAll && !servers().empty()) hear_of_all_topics(discovery);
   // With security, a GUID does not identify the process and may match another one by chance.
   if (has_keys) return qos;
   auto& flags = discovery.ignoreParticipantFlags;

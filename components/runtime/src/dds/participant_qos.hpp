@@ -3,6 +3,7 @@
 
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,10 @@
 #include "panvo/runtime/bridge.hpp"
 
 namespace panvo::runtime::dds {
+
+/// Locked while Fast DDS's factory is used, which has the environment, the profiles and the user's name in memory that
+/// all threads share. The functions below lock it where needed, except participant_qos().
+std::mutex& factory_mutex();
 
 /// Loads the user's profiles into Fast DDS: those named by its environment variables, then `settings.profiles`. Throws
 /// ConfigError if the file cannot be read or is invalid (naming it), or if the domain is out of range.
@@ -44,7 +49,8 @@ bool has_discovery_server();
 std::string silent_server_warning();
 
 /// QoS of a participant, from a profile or our defaults: UDP with buffers for images, ROS 2's user data, and ignoring
-/// other participants of the same process as far as Fast DDS can identify them (see own_participants.hpp).
+/// other participants of the same process as far as Fast DDS can identify them (see own_participants.hpp). Call it with
+/// factory_mutex() locked.
 fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears hears);
 
 }  // namespace panvo::runtime::dds
