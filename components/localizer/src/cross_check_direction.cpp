@@ -5,7 +5,7 @@
 #include "panvo/localizer/cross_check.hpp"
 #include "panvo/vision/angle.hpp"
 
-/// Directions of motion by panoramas and by odometry, and what they tell of the two mounts.
+/// Directions of motion by panoramas and by odometry, and what they show of the two mounts.
 namespace panvo::localizer {
 namespace {
 
@@ -56,7 +56,7 @@ double CrossCheck::allowed_rad(double variance_rad2, const DirectionOffset& offs
 }
 
 /// What is known of the mounting before a measurement. One that contradicts what is only remembered shows that a camera
-/// was mounted anew, or its mount corrected: then as if nothing were remembered.
+/// was mounted again, or its mount corrected: then as if nothing were remembered.
 DirectionOffset CrossCheck::offset_before(const Seen& seen) const {
   DirectionOffset offset = direction_offset_;
   const double off_rad = std::abs(vision::wrapped(seen.difference_rad - offset.estimate_rad()));

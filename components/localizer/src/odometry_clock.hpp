@@ -38,7 +38,7 @@ class OdometryClock {
   /// By how much it was set back before the last message, or forward if negative, ns; 0: it was not.
   std::int64_t set_back_ns() const noexcept { return set_back_ns_; }
 
-  /// After the clock was set by more than panoramas are ever late, their stamps tell whether their clock was set, too.
+  /// After the clock was set by more than panoramas are ever late, their stamps show whether their clock was set, too.
   enum class PanoramasClock {
     kAny,      ///< the odometry's was not set, or by less
     kAlike,    ///< it was set alike, as by a host that stamps both

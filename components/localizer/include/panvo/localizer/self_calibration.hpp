@@ -17,7 +17,7 @@ struct SelfCalibration {
   std::optional<Estimate> scale;             ///< odometry's length over the true one, by satellites
 };
 
-/// What that tells of a later journey, by standard deviations between what may have changed meanwhile and the prior
+/// What that says about a later journey, by standard deviations between what may have changed meanwhile and the prior
 /// without it, which is all that is left if a value is wrong. Nothing of what the parameters say is exact.
 SelfCalibration on_a_later_journey(const SelfCalibration& measured, const Parameters& parameters);
 
