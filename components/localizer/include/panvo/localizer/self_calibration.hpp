@@ -18,7 +18,7 @@ struct SelfCalibration {
 };
 
 /// What that says about a later journey, by standard deviations between what may have changed meanwhile and the prior
-/// without it, which is all that is left if a value is wrong. Nothing of what the parameters say is exact.
+/// without it, which is all that is left if a value is wrong. Without what the parameters declare exact.
 SelfCalibration on_a_later_journey(const SelfCalibration& measured, const Parameters& parameters);
 
 }  // namespace panvo::localizer
