@@ -350,10 +350,9 @@ TEST(LocalizerTime, StampsOfTheTimeThatPassesAreRightAfterTheClockIsSet) {
 
 TEST(LocalizerTime, UsesNoPlacesOfPanoramasWhoseClockWasNotSetByAnHour) {
   HourAhead set(false);
-  Vehicle& vehicle = set.vehicle;
-  vehicle.harness_.publish(topics::kCorrection, vehicle.correction(1, 74, ahead(9.3)));
-  EXPECT_THAT(vehicle.outcomes, SizeIs(0));
-  EXPECT_TRUE(vehicle.harness_.log_contains("not that of the panoramas"));
+  set.vehicle.harness_.publish(topics::kCorrection, set.vehicle.correction(1, 74, ahead(9.3)));
+  EXPECT_THAT(set.vehicle.outcomes, SizeIs(0));
+  EXPECT_TRUE(set.vehicle.harness_.log_contains("not that of the panoramas"));
 }
 
 TEST(LocalizerTime, IsLostAfterASilenceOfAnHour) {
