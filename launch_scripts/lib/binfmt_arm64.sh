@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Run in a user and mount namespace of its own: tells the kernel, there only, to start arm64 programs with qemu, and runs the command given.
+# Registers qemu for arm64 programs with the kernel, in a user and mount namespace of its own only, and runs the command given.
 set -euo pipefail
 folder=/proc/sys/fs/binfmt_misc
 mount -t binfmt_misc binfmt_misc "$folder"
