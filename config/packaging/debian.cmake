@@ -20,6 +20,7 @@ set(depends_panvo-simulation "panvo ${same_version}")
 set(depends_libpanvo-dev "panvo ${same_version}, panvo-simulation ${same_version}, cmake, libceres-dev, libcli11-dev, libeigen3-dev, \
 libfmt-dev, libopencv-dev, libsqlite3-dev, libspdlog-dev, python3")
 set(recommends_panvo "gnuplot-nox, python3-numpy")
+set(recommends_libpanvo-dev "libgmock-dev")  # for the tests of `panvo new component`
 set(suggests_panvo "openssl, panvo-simulation")
 
 set(CPACK_GENERATOR DEB)

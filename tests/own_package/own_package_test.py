@@ -108,6 +108,12 @@ class OwnPackage(unittest.TestCase):
         said = self.run_command("ctest", "--test-dir", self.folder / "build", "--output-on-failure")
         self.assertIn("100% tests passed, 0 tests failed out of 4", said)
 
+    def test_says_what_its_tests_need(self):
+        configure = ("cmake", "-S", self.package, "-B", self.folder / "without_gtest", "-DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON")
+        said = " ".join(self.run_command(*configure, status=1).split())  # CMake wraps lines
+        self.assertIn("apt-get install libgmock-dev", said)
+        self.run_command(*configure, "-DBUILD_TESTING=OFF")
+
     def test_parameters_are_shown(self):
         said = self.run_command("panvo", "component", "show", NAME)
         self.assertIn("min_step_m", said)
