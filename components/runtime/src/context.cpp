@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/runtime/context.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <optional>
 
@@ -11,6 +13,7 @@
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/names.hpp"
+#include "stamp_gate.hpp"
 #include "topic_access.hpp"
 
 namespace panvo::runtime {
@@ -114,6 +117,20 @@ std::int64_t Context::State::timer_stamp_ns() const {
   return follows_clock_ ? clock_ns_.load() : clocks::system_ns();
 }
 
+void Context::State::open_reader(Channel& channel, const std::optional<interfaces::Qos>& qos,
+                                 std::function<void(const SamplePtr&)> take) {
+  inputs.push_back(&channel);
+  // A component may read a topic by several inputs, each of which gets all messages.
+  std::string input = fmt::format("{} {}", inputs.size(), channel.topic().name);
+  const auto gate = std::make_shared<StampGate>(*this, std::move(input), std::move(take));
+  channel.add_reader(
+      this,
+      [this, gate](const TopicDescription& there, const SamplePtr& sample) {
+        if (active) gate->add(there, sample);
+      },
+      Channel::Wants::kValid, qos);
+}
+
 void Context::State::start() {
   follow_clock(node.uses_sim_time());
   for (const auto& worker : workers) worker->start(gives_way);
@@ -192,14 +209,9 @@ void Context::open_input(const TopicDescription& topic, std::function<void(const
     Worker& worker = state_->main_worker();
     Port& port = worker.add_port(topic.name, qos.value_or(topic.qos).depth, false,
                                  [callback = std::move(callback)](Task& task) { callback(task.first); });
-    state_->inputs.push_back(&channel);
-    channel.add_reader(
-        state_.get(),
-        [state = state_.get(), &worker, &port](const TopicDescription& there, const SamplePtr& sample) {
-          if (!state->active || !state->admits_stamp(there, *sample)) return;
-          worker.push(port, {.first = sample, .stamp_ns = sample->stamp_ns()});
-        },
-        Channel::Wants::kValid, qos);
+    state_->open_reader(channel, qos, [&worker, &port](const SamplePtr& sample) {
+      worker.push(port, {.first = sample, .stamp_ns = sample->stamp_ns()});
+    });
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
   }
@@ -221,13 +233,9 @@ void Context::open_input_pair(const TopicDescription& first, const TopicDescript
                                  [callback = std::move(callback)](Task& task) { callback(task.first, task.second); });
     const auto pairing = std::make_shared<Pairing>(worker, port, tolerance.count());
     for (int side = 0; side < 2; ++side) {
-      state_->inputs.push_back(channels[side]);
-      channels[side]->add_reader(
-          state_.get(),
-          [state = state_.get(), pairing, side](const TopicDescription& there, const SamplePtr& sample) {
-            if (state->active && state->admits_stamp(there, *sample)) pairing->take(side, sample->stamp_ns(), sample);
-          },
-          Channel::Wants::kValid, qos[side]);
+      state_->open_reader(*channels[side], qos[side], [pairing, side](const SamplePtr& sample) {
+        pairing->take(side, sample->stamp_ns(), sample);
+      });
     }
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());

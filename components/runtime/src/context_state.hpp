@@ -57,14 +57,15 @@ struct Context::State {
   Worker& main_worker() { return *workers.front(); }
   std::unique_ptr<Worker> make_worker(const std::string& worker_name);
   TopicDescription resolve(TopicDescription topic) const;
+  /// Passes the messages of a channel to an input while the component is active, unless their stamps are wrong.
+  void open_reader(Channel& channel, const std::optional<interfaces::Qos>& qos,
+                   std::function<void(const SamplePtr&)> take);
 
   void start();
   /// No callback is running once this has returned.
   void stop();
   bool failed() const;
 
-  /// Whether a message's stamp is plausible. Implausible stamps are counted and logged (throttled). Thread-safe.
-  bool admits_stamp(const TopicDescription& topic, const Sample& sample);
   /// See Context::about_to_read.
   void begin_reading(const std::filesystem::path& file);
   /// Call periodically: files that were read long enough ago without a failure are no longer on trial.

@@ -7,7 +7,6 @@ namespace panvo::runtime {
 namespace {
 
 constexpr std::int64_t kLate_ns = 5'000'000'000;  // largest delay of messages derived from another message
-constexpr std::int64_t kReportPeriod_ns = 10'000'000'000;
 constexpr std::int64_t kSlower =
     50;  // fraction (1 / kSlower) of a later arrival that is learned: most of the delay is queueing
 constexpr std::int64_t kMeanOver = 8;  // intervals
@@ -18,46 +17,53 @@ constexpr std::string_view kBack = "a stamp behind its neighbours";
 
 }  // namespace
 
-StampGuard::Verdict StampGuard::check(const std::string& topic, std::int64_t stamp_ns, std::int64_t arrival_ns,
+StampGuard::Verdict StampGuard::check(const std::string& input, std::int64_t stamp_ns, std::int64_t arrival_ns,
                                       std::optional<std::int64_t> host_ns) {
   const std::lock_guard lock(mutex_);
-  Topic& own = topics_[topic];
+  Topic& own = topics_[input];
   const std::int64_t offset_ns = stamp_ns - arrival_ns;
   Verdict verdict;
+  const int agreeing = agreeing_suspects(own, stamp_ns, arrival_ns);
   if (!own.has_any) {
     const bool is_of_now = !host_ns || stamp_ns <= *host_ns + limits_.ahead_ns;
     if (!is_of_now) verdict = {.off_ns = stamp_ns - *host_ns, .reason = kAheadOfHost};
   } else if (stamp_ns < own.stamp_ns - limits_.back_ns) {
     verdict = {.off_ns = stamp_ns - own.stamp_ns, .reason = kBack};
-  } else if (offset_ns > own.offset_ns + allowance_ns(own) && !agrees_with_another(own, stamp_ns, arrival_ns)) {
-    verdict = {.off_ns = offset_ns - own.offset_ns, .reason = kAhead};
+  } else if (offset_ns > own.offset_ns + allowance_ns(own)) {
+    // The partner of a message whose clock was just found to be set need not be confirmed, nor need those before it.
+    if (agrees_with_another(own, stamp_ns, arrival_ns)) {
+      verdict.agreeing = agreeing;
+    } else {
+      verdict = {.off_ns = offset_ns - own.offset_ns, .reason = kAhead};
+    }
   }
   if (verdict.reason.empty()) {
-    own.suspects = 0;
-    if (own.has_any) {
-      const std::int64_t interval_ns = std::max<std::int64_t>(stamp_ns - own.stamp_ns, 0);
-      own.interval_ns += own.interval_ns == 0 ? interval_ns : (interval_ns - own.interval_ns) / kMeanOver;
-      own.offset_ns += offset_ns > own.offset_ns ? offset_ns - own.offset_ns : (offset_ns - own.offset_ns) / kSlower;
-    } else {
-      own.offset_ns = offset_ns;
-    }
-  } else if (is_confirmed(own, stamp_ns, arrival_ns)) {
-    verdict.outcome = Outcome::kClockStep;
-    verdict.is_to_report = true;
-    own.suspects = 0;
-    own.offset_ns = offset_ns;
+    learn(own, stamp_ns, offset_ns);
   } else {
-    verdict.outcome = Outcome::kRejected;
-    verdict.rejected = ++own.rejected;
-    const auto reported = own.reported_ns.find(verdict.reason);
-    verdict.is_to_report = reported == own.reported_ns.end() || arrival_ns - reported->second >= kReportPeriod_ns;
-    if (verdict.is_to_report) own.reported_ns[verdict.reason] = arrival_ns;
-    return verdict;
+    verdict.agreeing = agreeing;
+    own.suspects = agreeing + 1;
+    own.suspect_stamp_ns = stamp_ns;
+    own.suspect_arrival_ns = arrival_ns;
+    verdict.outcome = own.suspects < limits_.confirmations ? Outcome::kSuspected : Outcome::kClockStep;
+    if (verdict.outcome == Outcome::kSuspected) return verdict;
+    own.offset_ns = offset_ns;
   }
+  own.suspects = 0;
   own.has_any = true;
   own.stamp_ns = stamp_ns;
   own.arrival_ns = arrival_ns;
   return verdict;
+}
+
+void StampGuard::learn(Topic& topic, std::int64_t stamp_ns, std::int64_t offset_ns) {
+  if (!topic.has_any) {
+    topic.offset_ns = offset_ns;
+    return;
+  }
+  const std::int64_t interval_ns = std::max<std::int64_t>(stamp_ns - topic.stamp_ns, 0);
+  topic.interval_ns += topic.interval_ns == 0 ? interval_ns : (interval_ns - topic.interval_ns) / kMeanOver;
+  const std::int64_t later_ns = offset_ns - topic.offset_ns;
+  topic.offset_ns += later_ns > 0 ? later_ns : later_ns / kSlower;
 }
 
 /// Messages played faster than recorded arrive early by almost one interval.
@@ -76,14 +82,11 @@ bool StampGuard::agrees_with_another(const Topic& own, std::int64_t stamp_ns, st
   });
 }
 
-bool StampGuard::is_confirmed(Topic& topic, std::int64_t stamp_ns, std::int64_t arrival_ns) const {
+int StampGuard::agreeing_suspects(const Topic& topic, std::int64_t stamp_ns, std::int64_t arrival_ns) const {
   const std::int64_t interval_ns = stamp_ns - topic.suspect_stamp_ns;
   const std::int64_t ahead_ns = interval_ns - (arrival_ns - topic.suspect_arrival_ns);
-  const bool agrees = topic.suspects > 0 && interval_ns > 0 && ahead_ns <= allowance_ns(topic);
-  topic.suspects = agrees ? topic.suspects + 1 : 1;
-  topic.suspect_stamp_ns = stamp_ns;
-  topic.suspect_arrival_ns = arrival_ns;
-  return topic.suspects >= limits_.confirmations;
+  const bool agrees = interval_ns > 0 && ahead_ns <= allowance_ns(topic);
+  return agrees ? topic.suspects : 0;
 }
 
 }  // namespace panvo::runtime

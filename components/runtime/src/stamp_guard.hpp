@@ -11,7 +11,7 @@
 namespace panvo::runtime {
 
 /// Checks stamps against arrival times. Their difference is constant up to the transmission time. A stamp far ahead of
-/// the expected one, or behind its predecessors, is rejected, and so are the following ones until a few consecutive
+/// the expected one, or behind its predecessors, is suspected, and so are the following ones until a few consecutive
 /// ones are consistent: then the sender's clock was set and the new time is accepted. Thread-safe; deterministic.
 class StampGuard {
  public:
@@ -21,21 +21,20 @@ class StampGuard {
     std::int64_t max_ahead_ns = 2'500'000'000;  ///< for topics below 1 Hz
     int confirmations = 5;                      ///< consecutive consistent messages that confirm a new time
   };
-  enum class Outcome { kAccepted, kClockStep, kRejected };
+  enum class Outcome { kAccepted, kClockStep, kSuspected };
   struct Verdict {
     Outcome outcome = Outcome::kAccepted;
-    std::int64_t off_ns = 0;     ///< offset of a stamp ahead (negative: behind), unless accepted
-    std::string_view reason;     ///< of the rejection
-    bool is_to_report = false;   ///< a clock step, or the first with its reason in 10 s
-    std::uint64_t rejected = 0;  ///< rejections of this topic so far
+    std::int64_t off_ns = 0;  ///< offset of a stamp ahead (negative: behind), unless accepted
+    std::string_view reason;  ///< of the suspicion
+    int agreeing = 0;  ///< so many suspected messages just before are consistent with this one; others were wrong
   };
 
   explicit StampGuard(const Limits& limits) : limits_(limits) {}
   StampGuard() : StampGuard(Limits{}) {}
 
-  /// `arrival_ns`: from a monotonic clock. `host_ns`: the host's clock, if stamps are current and not recorded; the
-  /// first stamp of a topic must not be ahead of it.
-  Verdict check(const std::string& topic, std::int64_t stamp_ns, std::int64_t arrival_ns,
+  /// `input`: a topic, as one reader gets it. `arrival_ns`: from a monotonic clock. `host_ns`: the host's clock, if stamps
+  /// are current and not recorded; the first stamp of a topic must not be ahead of it.
+  Verdict check(const std::string& input, std::int64_t stamp_ns, std::int64_t arrival_ns,
                 std::optional<std::int64_t> host_ns);
 
  private:
@@ -44,19 +43,18 @@ class StampGuard {
     std::int64_t stamp_ns = 0, arrival_ns = 0;  // of the last accepted message
     std::int64_t offset_ns = 0;                 // stamp minus arrival of the fastest messages
     std::int64_t interval_ns = 0;               // mean interval between stamps; 0: unknown
-    int suspects = 0;                           // consecutive rejected messages that are consistent
+    int suspects = 0;                           // consecutive suspected messages that are consistent
     std::int64_t suspect_stamp_ns = 0, suspect_arrival_ns = 0;
-    std::uint64_t rejected = 0;
-    std::map<std::string_view, std::int64_t> reported_ns;
   };
 
+  static void learn(Topic& topic, std::int64_t stamp_ns, std::int64_t offset_ns);
   std::int64_t allowance_ns(const Topic& topic) const;
   bool agrees_with_another(const Topic& own, std::int64_t stamp_ns, std::int64_t arrival_ns) const;
-  bool is_confirmed(Topic& topic, std::int64_t stamp_ns, std::int64_t arrival_ns) const;
+  int agreeing_suspects(const Topic& topic, std::int64_t stamp_ns, std::int64_t arrival_ns) const;
 
   const Limits limits_;
   std::mutex mutex_;
-  std::map<std::string, Topic> topics_;
+  std::map<std::string, Topic> topics_;  // by input
 };
 
 }  // namespace panvo::runtime

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stamp_guard.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "panvo/interfaces/topics.hpp"
-#include "panvo/runtime/testing.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -30,7 +26,7 @@ struct Camera {
   }
   int accepted_of(int count, std::int64_t off = 0) {
     int accepted = 0;
-    for (int i = 0; i < count; ++i) accepted += send(off) == Outcome::kRejected ? 0 : 1;
+    for (int i = 0; i < count; ++i) accepted += send(off) == Outcome::kSuspected ? 0 : 1;
     return accepted;
   }
 };
@@ -40,7 +36,7 @@ TEST(StampGuard, RejectsOneStampThatJumpsAndNoneOfThoseAfterIt) {
     StampGuard guard;
     Camera camera{guard};
     EXPECT_EQ(camera.accepted_of(100), 100);
-    EXPECT_EQ(camera.send(jump), Outcome::kRejected) << jump;
+    EXPECT_EQ(camera.send(jump), Outcome::kSuspected) << jump;
     EXPECT_EQ(camera.accepted_of(100), 100) << jump;
   }
 }
@@ -50,7 +46,7 @@ TEST(StampGuard, AcceptsAClockThatWasSetOnceAFewMessagesAgree) {
     StampGuard guard;
     Camera camera{guard};
     camera.accepted_of(100);
-    for (int i = 0; i < 4; ++i) EXPECT_EQ(camera.send(jump), Outcome::kRejected);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(camera.send(jump), Outcome::kSuspected);
     EXPECT_EQ(camera.send(jump), Outcome::kClockStep);
     EXPECT_EQ(camera.accepted_of(100, jump), 100);
   }
@@ -60,10 +56,10 @@ TEST(StampGuard, TakesNoJumpsThatDisagreeForAClock) {
   StampGuard guard;
   Camera camera{guard};
   camera.accepted_of(100);
-  for (int i = 1; i < 20; ++i) EXPECT_EQ(camera.send(i * i * 10 * kSecond), Outcome::kRejected);
+  for (int i = 1; i < 20; ++i) EXPECT_EQ(camera.send(i * i * 10 * kSecond), Outcome::kSuspected);
   for (int i = 0; i < 20; ++i) {
     EXPECT_EQ(camera.send(), Outcome::kAccepted);
-    EXPECT_EQ(camera.send(10 * kSecond), Outcome::kRejected) << "the right time came in between";
+    EXPECT_EQ(camera.send(10 * kSecond), Outcome::kSuspected) << "the right time came in between";
   }
 }
 
@@ -107,61 +103,30 @@ TEST(StampGuard, LetsTopicsHaveClocksOfTheirOwn) {
     EXPECT_EQ(stereo.send(), Outcome::kAccepted);
     EXPECT_EQ(panorama.send(), Outcome::kAccepted);
   }
-  EXPECT_EQ(stereo.send(60 * kSecond), Outcome::kRejected);
+  EXPECT_EQ(stereo.send(60 * kSecond), Outcome::kSuspected);
 }
 
 TEST(StampGuard, TakesNoFirstStampOfTheFuture) {
   StampGuard guard;
-  EXPECT_EQ(guard.check("/a", kYear2038, 0, kNow).outcome, Outcome::kRejected);
+  EXPECT_EQ(guard.check("/a", kYear2038, 0, kNow).outcome, Outcome::kSuspected);
   EXPECT_EQ(guard.check("/a", kNow, kFrame, kNow + kFrame).outcome, Outcome::kAccepted);
   EXPECT_EQ(guard.check("/b", 1'300'000'000 * kSecond, 0, kNow).outcome, Outcome::kAccepted) << "a recording is played";
 }
 
-TEST(StampGuard, ReportsAReasonOnceInTenSeconds) {
+TEST(StampGuard, TellsWhichSuspectsAreOfTheTimeOfAMessage) {
   StampGuard guard;
   Camera camera{guard};
-  int reports = 0;
-  std::uint64_t rejected = 0;
-  for (int i = 0; i < 25 * 25; ++i) {  // for 25 s, every second image is wrong
-    camera.send();
+  camera.accepted_of(100);
+  const auto agreeing = [&](std::int64_t off) {
     camera.time += kFrame;
-    const auto verdict = guard.check("/camera", camera.time + kNow + 60 * kSecond, camera.time, std::nullopt);
-    reports += verdict.is_to_report ? 1 : 0;
-    rejected = verdict.rejected;
-  }
-  EXPECT_EQ(reports, 5);  // in 50 s
-  EXPECT_EQ(rejected, 625U);
-}
-
-/// Records the stamps of received pairs.
-struct PairSink : Component {
-  explicit PairSink(Context& context) {
-    context.input_pair(topics::kStereoLeftImageRect, topics::kStereoRightImageRect,
-                       [](const auto& left, const auto&) { seen.push_back(left->header().stamp().sec()); });
-  }
-  static inline std::vector<std::int32_t> seen;
-};
-
-TEST(StampGuard, KeepsAPairOfAnotherTimeFromAComponentAndCountsIt) {
-  std::int64_t arrival = 0;
-  ComponentHarness harness({.replay = true, .clock = [&] { return arrival; }});
-  PairSink::seen.clear();
-  harness.add<PairSink>("pair_sink");
-  const auto send = [&](std::int32_t second) {
-    sensor_msgs::msg::Image image;
-    image.header().stamp().sec(second);
-    image.width(1);
-    image.height(1);
-    image.step(1);
-    image.encoding("mono8");
-    image.data({0});
-    harness.publish(topics::kStereoLeftImageRect, image);
-    harness.publish(topics::kStereoRightImageRect, image);
-    arrival += kSecond;
+    return guard.check("/camera", camera.time + kNow + off, camera.time + 10'000'000, std::nullopt).agreeing;
   };
-  for (const std::int32_t second : {1'000, 1'001, 1'002, 1'063, 1'004}) send(second);
-  EXPECT_THAT(PairSink::seen, testing::ElementsAre(1'000, 1'001, 1'002, 1'004));
-  EXPECT_TRUE(harness.log_contains("/stereo/left/image_rect: dropped a message with a stamp ahead"));
+  EXPECT_EQ(agreeing(60 * kSecond), 0);
+  EXPECT_EQ(agreeing(0), 0) << "the one before was wrong";
+  EXPECT_EQ(agreeing(60 * kSecond), 0);
+  EXPECT_EQ(agreeing(-10 * kSecond), 0);
+  for (int before = 1; before < 5; ++before) EXPECT_EQ(agreeing(-10 * kSecond), before);
+  EXPECT_EQ(agreeing(-10 * kSecond), 0) << "accepted; none is suspected any more";
 }
 
 }  // namespace
