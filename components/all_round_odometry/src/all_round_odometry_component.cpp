@@ -14,6 +14,7 @@
 #include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/vision/stamp_sequence.hpp"
 #include "panvo/vision/usual_interval.hpp"
 
 namespace panvo::all_round_odometry {
@@ -34,7 +35,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
   }
 
  private:
-  static constexpr int kMaxRefused = 5;  // consecutive stereo poses, after which their clock counts as set back
+  static constexpr int kMaxRefused = 5;  // consecutive stereo poses, after which their clock counts as set back at all
   static constexpr std::size_t kMaxWaiting = 100;
   static constexpr double kSilence_s = 0.3, kSilent = 3.0;  // at least, and in intervals
 
@@ -49,8 +50,9 @@ class AllRoundOdometryComponent final : public runtime::Component {
     last_ = joined.odometry;
     stereo_at_ns_ = context_.passing_ns();
     const vision::Stage stage(&timer_, "join");
+    const bool is_set_back = stamps_.add(stereo.stamp_ns) == vision::StampOrder::kSetBack;
     if (!odometry_->add(stereo)) {
-      if (++refused_ < kMaxRefused) {
+      if (++refused_ < kMaxRefused && !is_set_back) {
         return refuse(context_.resolved_name(topics::kOdometryBinocular), "is not later than the previous one");
       }
       context_.log().warn("the clock of {} was set back: learning distances again",
@@ -140,6 +142,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
   std::optional<AllRoundPose> before_;
   bool is_by_panoramas_ = false;
   int refused_ = 0;
+  vision::StampSequence stamps_{2};  // few, as each pose that is refused is motion lost
 };
 
 PANVO_REGISTER_COMPONENT(AllRoundOdometryComponent)

@@ -154,6 +154,13 @@ TEST_F(AllRoundOdometryComponentTest, StartsAnewIfTheClockIsSetBack) {
             conversions::to_stamp(Park::stamp_ns(0) + std::llround(0.25 * double(kInterval_ns))));
 }
 
+TEST_F(AllRoundOdometryComponentTest, LosesOnePoseIfTheClockIsSetBack) {
+  drive(1, 4, true);
+  const auto poses = odometry_.size();
+  for (int i = 0; i < 2; ++i) publish_stereo(0.2 + 0.01 * i, true);  // by more than reordering
+  EXPECT_EQ(odometry_.size(), poses + 1);
+}
+
 TEST_F(AllRoundOdometryComponentTest, GoesOnFromTheLastPoseIfTheClockIsSetBack) {
   publish_mounting(kCamera);
   drive(1, 12, true);

@@ -151,7 +151,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   const double by_s = vision::seconds(0, by_ns);
   was_clock_set_ = true;
   set_back_s_ += by_s;
-  if (std::abs(by_s) < kMistakenFor_s) last_set_s_ = std::abs(by_s);
+  if (std::abs(by_s) < kMistakenFor_s) last_set_s_ = by_s;
   origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
   clock_search_ = {};
@@ -177,6 +177,12 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   turn_seen_.reset();
   check_.forget();
   mounts_.forget_stamps();
+}
+
+void Localizer::correct_set_back(std::int64_t less_ns) {
+  const double less_s = vision::seconds(0, less_ns);
+  if (set_back_s_ != 0.0) set_back_s_ -= less_s;  // else its stamps are right all the same
+  if (last_set_s_ != 0.0) last_set_s_ -= less_s;
 }
 
 void Localizer::trust_stamps() {

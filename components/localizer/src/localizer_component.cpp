@@ -99,6 +99,7 @@ class LocalizerComponent final : public runtime::Component {
       return refuse(context_.resolved_name(topics::kOdometryBinocular), "has a stamp not later than the previous one");
     }
     if (clock_.set_back_ns() != 0) set_clock_back(clock_.set_back_ns());
+    localizer_.correct_set_back(clock_.less_back_ns());
     const auto host_ns = context_.host_ns();
     if (host_ns && std::abs(vision::seconds(stamp_ns, *host_ns)) < kOfNow_s) localizer_.trust_stamps();
     const OdometryPose received{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()),

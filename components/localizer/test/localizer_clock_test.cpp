@@ -66,8 +66,9 @@ struct SetSender {
     ahead_ns = -static_cast<std::int64_t>(std::llround(back_s * 1e9));
     for (int i = 0; i < 10 && clock.set_back_ns() == 0; ++i) send();
   }
-  void send() {
-    const std::int64_t arrival_ns = ++count * kPeriod_ns, stamp_ns = kBegin_ns + arrival_ns + ahead_ns;
+  void send(int waited = 0) {
+    const std::int64_t sent_ns = ++count * kPeriod_ns, stamp_ns = kBegin_ns + sent_ns + ahead_ns;
+    const std::int64_t arrival_ns = sent_ns + waited * kPeriod_ns;
     if (clock.add(stamp_ns, arrival_ns, latest_ns)) latest_ns = stamp_ns;
   }
   double set_back_s() const { return 1e-9 * static_cast<double>(clock.set_back_ns()); }
@@ -85,6 +86,33 @@ TEST(OdometryClock, TellsByHowMuchItWasSetHoweverManyMessagesAreLost) {
   SetSender sender(2.3);
   sender.send();
   EXPECT_EQ(sender.set_back_s(), 0.0) << "once";
+}
+
+TEST(OdometryClock, TellsByItsSecondMessageThatItWasSetBack) {
+  SetSender sender(0.0);
+  sender.ahead_ns = -3 * kSecond_ns;
+  const auto before_ns = sender.latest_ns;
+  sender.send();
+  EXPECT_EQ(sender.latest_ns, before_ns) << "one may be late";
+  sender.send();
+  EXPECT_NEAR(sender.set_back_s(), 3.0, 1e-6);
+}
+
+TEST(OdometryClock, TellsByHowMuchItWasSetThoughTheFirstMessagesWaited) {
+  for (const double back_s : {2.3, -7.0}) {
+    SetSender sender(0.0);
+    sender.ahead_ns = -static_cast<std::int64_t>(std::llround(back_s * 1e9));
+    std::int64_t back_ns = 0;
+    for (int waited = 4; waited >= 0; --waited) {
+      sender.send(waited);
+      back_ns += sender.clock.set_back_ns() - sender.clock.less_back_ns();
+    }
+    EXPECT_NEAR(1e-9 * static_cast<double>(back_ns), back_s, 1e-6);
+    for (int late = 0; late < 20; ++late) {
+      sender.send(20 - late);
+      EXPECT_EQ(sender.clock.less_back_ns(), 0) << "these are only late";
+    }
+  }
 }
 
 TEST(OdometryClock, PanoramasOfAClockThatWasNotSetAreOfAnotherTime) {

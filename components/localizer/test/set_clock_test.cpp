@@ -42,6 +42,18 @@ TEST(LocalizerSetClock, IsUnsureOfTheStampsUntilTheFormerTimeIsBack) {
   EXPECT_LT(vehicle.sigma_m(), 1.5 * vehicle.sigma_before_m);
 }
 
+TEST(LocalizerSetClock, IsSureOfTheStampsOnceItIsKnownThatTheFormerTimeIsBack) {
+  ClockSetVehicle vehicle;
+  vehicle.set_clock_back(2.0);  // seems so by a message that came late
+  vehicle.localizer.correct_set_back(Winding::ns(0.5));
+  vehicle.drive(500, 525, 0.0);
+  EXPECT_NEAR(vehicle.sigma_m(), 1.5 * Winding::kSpeed, 0.1);
+  vehicle.set_clock_back(-1.0);
+  vehicle.localizer.correct_set_back(Winding::ns(0.5));
+  vehicle.drive(525, 550, 0.0);
+  EXPECT_LT(vehicle.sigma_m(), 1.5 * vehicle.sigma_before_m);
+}
+
 TEST(LocalizerSetClock, KnowsWhereAStandingVehicleIsAtAnyTime) {
   Localizer localizer{Parameters{}};
   OdometryPose odometry;

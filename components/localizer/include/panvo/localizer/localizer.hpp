@@ -150,6 +150,8 @@ class Localizer {
   /// Which of the two times is right is unknown, and so is where the vehicle is at the stamp of a pose: until the clock is
   /// set to the former time again, or turns show that the panoramic camera's clock was set alike.
   void set_clock_back(std::int64_t by_ns);
+  /// It was set back by so much less, or forward by so much more.
+  void correct_set_back(std::int64_t less_ns);
   /// The odometry's stamps, and those of the panoramas against them, are right all the same.
   void trust_stamps();
 
@@ -253,7 +255,7 @@ class Localizer {
   std::int64_t clock_found_ns_ = INT64_MIN;   // odometry before that was corrected at the wrong times
   bool was_clock_set_ = false;                // of the odometry, since its last pose
   double set_back_s_ = 0.0;                   // the odometry's clock, in all; 0 if its stamps are right all the same
-  double last_set_s_ = 0.0;                   // by so much, last, unless panoramas have shown their clock since
+  double last_set_s_ = 0.0;                   // the same, last, unless panoramas have shown their clock since
   std::int64_t clock_proven_ns_ = INT64_MIN;  // stamp of the last panorama whose turn agreed, but not at other times
   TurnErrorFilter turn_error_;
   YawBiasDetector lean_;
