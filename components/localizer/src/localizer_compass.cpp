@@ -35,7 +35,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& received) {
 AzimuthUse Localizer::use(const AzimuthMeasurement& received) {
   const std::int64_t from_ns = in_odometry_time(received.from_ns);
   const std::int64_t to_ns = in_odometry_time(received.to_ns);
-  if (!chain_.turn(from_ns, to_ns)) return AzimuthUse::kNotUsed;
+  if (!chain_.turn(from_ns, to_ns)) return chain_.at(to_ns) ? AzimuthUse::kTooEarly : AzimuthUse::kNotUsed;
   const AzimuthMeasurement azimuth = unwrapped(received);
   const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
   take_reference(azimuth.from_ns);

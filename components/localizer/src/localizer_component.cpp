@@ -224,6 +224,7 @@ class LocalizerComponent final : public runtime::Component {
 
   void take(const AzimuthMeasurement& azimuth) {
     const auto use = localizer_.add(azimuth);
+    if (use == AzimuthUse::kTooEarly) return;  // the compass compares several panoramas with its first one
     if (use == AzimuthUse::kNotUsed) {
       // A single panorama may lack odometry; if all do, a clock is wrong.
       if (++unused_ > 10) {

@@ -86,6 +86,7 @@ enum class AzimuthUse {
   kContradicted,  ///< odometry's turn was considered wrong
   kDoubted,       ///< not used: implausible turn while odometry continued steadily
   kUnclear,       ///< not used: a wrong turn, or one at another time because a clock is wrong
+  kTooEarly,      ///< not used: it began before the odometry
   kNotUsed,       ///< no odometry for its stamps, or not finite
 };
 
