@@ -29,20 +29,27 @@ std::string to_text(const Range& range) {
 /// Not if the value is not a number, either.
 bool contains(const Range& range, double value) { return value >= range.min && value <= range.max; }
 
-bool append_numbers(const YAML::Node& node, std::vector<double>& numbers) {
-  if (node.IsSequence())
-    return std::all_of(node.begin(), node.end(), [&](const YAML::Node& item) { return append_numbers(item, numbers); });
+// YAML aliases can make a list contain itself, and a few lines of them stand for billions of numbers.
+constexpr int kDeepest = 2;                   // rows of a matrix
+constexpr std::size_t kMostNumbers = 10'000;  // more than any calibration has
+
+bool append_numbers(const YAML::Node& node, int deepest, std::vector<double>& numbers) {
+  if (node.IsSequence()) {
+    return deepest > 0 && std::all_of(node.begin(), node.end(), [&](const YAML::Node& item) {
+             return append_numbers(item, deepest - 1, numbers);
+           });
+  }
   double value = 0.0;
-  if (!YAML::convert<double>::decode(node, value)) return false;
+  if (numbers.size() == kMostNumbers || !YAML::convert<double>::decode(node, value)) return false;
   numbers.push_back(value);
   return true;
 }
 
-/// The numbers of a list, of nested lists or of a matrix; nullopt if it is something else.
+/// The numbers of a list, of a list of rows or of a matrix; nullopt if it is something else.
 std::optional<std::vector<double>> to_numbers(const YAML::Node& node) {
   const YAML::Node list = node.IsMap() ? node["data"] : node;
   std::vector<double> numbers;
-  if (!list.IsDefined() || !list.IsSequence() || !append_numbers(list, numbers)) return std::nullopt;
+  if (!list.IsDefined() || !list.IsSequence() || !append_numbers(list, kDeepest, numbers)) return std::nullopt;
   return numbers;
 }
 

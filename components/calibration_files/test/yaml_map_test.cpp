@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/calibration_files/yaml_map.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -94,6 +95,22 @@ TEST_F(YamlMapTest, ReadsOpencvsMatrices) {
     EXPECT_THAT(map.where("M"), HasSubstr("rig.yaml:3: M"));
     EXPECT_NO_THROW(map.finish());
   }
+}
+
+TEST_F(YamlMapTest, BearsAliasesThatBlowUpAList) {
+  const auto read = [](YamlMap& map) { map.numbers("list"); };
+  const std::string refused = ": list must be a list of numbers, or a matrix (rows, cols, data)";
+  EXPECT_EQ(refusal("row: &r [1, 2]\nlist: [*r, *r]\n", read), "accepted");
+  EXPECT_EQ(refusal("list: &again [1, *again]\n", read), "rig.yaml:1" + refused);
+  EXPECT_EQ(refusal("list: &again {data: *again}\n", read), "rig.yaml:1" + refused);
+  std::string twice = "a0: &a0 [1, 2]\n";  // each list is twice the one before: 2^64 numbers
+  for (int i = 1; i < 64; ++i) twice += fmt::format("a{0}: &a{0} [*a{1}, *a{1}]\n", i, i - 1);
+  EXPECT_EQ(refusal(twice + "list: *a63\n", read), "rig.yaml:65" + refused);
+  std::string row = "row: &r [1";
+  for (int i = 1; i < 200; ++i) row += ", 1";
+  std::string rows = "]\nlist: [*r";
+  for (int i = 1; i < 200; ++i) rows += ", *r";
+  EXPECT_EQ(refusal(row + rows + "]\n", read), "rig.yaml:2" + refused);
 }
 
 TEST_F(YamlMapTest, GivesDefaultsForWhatIsMissing) {

@@ -39,7 +39,7 @@ class YamlMap {
   /// One of several words.
   std::string choice(const std::string& key, const std::vector<std::string>& words,
                      const std::optional<std::string>& instead = {});
-  /// The required numbers of a list, of nested lists, or of a matrix (a map with a list `data`). Has `count` numbers
+  /// The required numbers of a list, of a list of rows, or of a matrix (a map with a list `data`). Has `count` numbers
   /// also if they are wrong; without `count` any number of them is valid.
   std::vector<double> numbers(const std::string& key, std::optional<std::size_t> count = {}, const Range& range = {});
   /// A required image size: [width, height], whole numbers of px.
