@@ -2,6 +2,7 @@
 #include "panvo/runtime/problems.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace panvo::runtime {
 namespace {
@@ -35,11 +36,10 @@ std::vector<std::string> Problems::sorted() const {
   std::stable_sort(in_order.begin(), in_order.end(), [&key](const auto& a, const auto& b) { return key(a) < key(b); });
 
   std::vector<std::string> lines;
+  std::set<std::string> known;
   for (const auto& [where, what] : in_order) {
     auto line = where.file.empty() ? what : where.to_string() + ": " + what;
-    if (std::find(lines.begin(), lines.end(), line) == lines.end()) {
-      lines.push_back(std::move(line));
-    }
+    if (known.insert(line).second) lines.push_back(std::move(line));
   }
   return lines;
 }

@@ -207,6 +207,11 @@ TEST_F(SystemFile, NamesWhatIsWrongInAParameterFile) {
                   "p.yaml:6: parameter c must be one value or a list of values, not lists or maps within a list"));
   folder_.write("p.yaml", "/**: &again\n  ros__parameters:\n    a: 1\n  deeper: *again\n");
   EXPECT_THAT(problems(from), testing::Not(IsEmpty())) << "a map that contains itself";
+  const auto is_too_many = testing::Contains(HasSubstr("p.yaml:1: has more than 10000 entries here"));
+  folder_.write("p.yaml", "/**: &again {a: *again, b: *again, c: *again}\n");
+  EXPECT_THAT(problems(from), is_too_many);
+  folder_.write("p.yaml", "/**: {ros__parameters: &again {a: *again, b: *again, c: *again}}\n");
+  EXPECT_THAT(problems(from), is_too_many);
 }
 
 TEST_F(SystemFile, NotesAParameterFileThatSaysNothingToItsComponent) {
