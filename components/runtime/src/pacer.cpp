@@ -3,14 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "clocks.hpp"
 
 namespace panvo::runtime {
+namespace {
+
+/// Up to a century: clients may ask for any rate, and integers do not hold more than three.
+std::int64_t bounded(double duration_ns) {
+  constexpr double kCentury_ns = 3.2e18;
+  return static_cast<std::int64_t>(std::clamp(duration_ns, -kCentury_ns, kCentury_ns));
+}
+
+}  // namespace
 
 std::int64_t Pacer::State::due_ns(std::int64_t stamp) const {
-  return since_ns + static_cast<std::int64_t>(static_cast<double>(stamp - stamp_ns) / rate);
+  return since_ns + bounded(static_cast<double>(stamp - stamp_ns) / rate);
 }
 
 void Pacer::start(std::int64_t first_stamp_ns, std::int64_t now_ns) {
@@ -38,8 +48,10 @@ Pacer::State Pacer::state() const {
 
 void Pacer::go_on_from_here() {
   const std::int64_t now_ns = clocks::monotonic_ns();
-  if (!state_.is_paused)
-    state_.stamp_ns += static_cast<std::int64_t>(static_cast<double>(now_ns - state_.since_ns) * state_.rate);
+  if (!state_.is_paused) {
+    const std::int64_t played_ns = bounded(static_cast<double>(now_ns - state_.since_ns) * state_.rate);
+    state_.stamp_ns += std::min(played_ns, INT64_MAX - std::max<std::int64_t>(state_.stamp_ns, 0));
+  }
   state_.since_ns = now_ns;
   ++state_.version;
 }

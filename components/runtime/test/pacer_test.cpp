@@ -52,6 +52,25 @@ TEST(Pacer, RefusesRatesThatAreNone) {
   EXPECT_FALSE(Pacer(0).set_rate(1)) << "played as fast as possible";
 }
 
+TEST(Pacer, KeepsTheOrderOfTimesAtAnyRate) {
+  Pacer pacer;
+  pacer.start(100 * kSecond, 5 * kSecond);
+  EXPECT_TRUE(pacer.set_rate(1e-300));
+  auto state = pacer.state();
+  EXPECT_GT(state.due_ns(state.stamp_ns + 1), state.since_ns + 1'000'000'000 * kSecond);
+  EXPECT_EQ(state.due_ns(state.stamp_ns), state.since_ns);
+  EXPECT_LT(state.due_ns(state.stamp_ns - 1), state.since_ns);
+  EXPECT_TRUE(pacer.set_rate(1e300));
+  EXPECT_EQ(pacer.state().due_ns(200 * kSecond), pacer.state().since_ns);
+  pacer.start(100 * kSecond, 0);
+  pacer.pause();
+  EXPECT_GT(pacer.state().stamp_ns, 1'000'000'000 * kSecond);
+  pacer.resume();
+  pacer.start(std::numeric_limits<std::int64_t>::max(), 0);  // nothing to play
+  pacer.pause();
+  EXPECT_EQ(pacer.state().stamp_ns, std::numeric_limits<std::int64_t>::max());
+}
+
 TEST(Pacer, KeepsARateThatWasSetBeforeTheRun) {
   Pacer pacer(1);
   EXPECT_TRUE(pacer.set_rate(8));
