@@ -78,16 +78,29 @@ BagFile read_file(const YAML::Node& node) {
   return file;
 }
 
-BagMetadata read_bag(const YAML::Node& node) {
+/// `bytes`: length of the document. YAML aliases, which no recorder writes, can give each topic the profiles of all.
+std::vector<BagTopic> read_topics(const YAML::Node& list, std::size_t bytes) {
+  constexpr std::size_t kLeastBytes = 100, kRepeated = 1000;  // a profile without aliases; profiles of any document
+  std::vector<BagTopic> topics;
+  std::size_t profiles = 0;
+  for (const auto& node : list) {
+    topics.push_back(read_topic(node));
+    profiles += topics.back().offered_qos_profiles.size();
+    if (profiles > bytes / kLeastBytes + kRepeated) {
+      throw YAML::Exception(node.Mark(), "aliases repeat the quality of service of topics too often");
+    }
+  }
+  return topics;
+}
+
+BagMetadata read_bag(const YAML::Node& node, std::size_t bytes) {
   BagMetadata bag;
   bag.version = node["version"].as<int>();
   bag.storage_identifier = node["storage_identifier"].as<std::string>();
   bag.duration_ns = node["duration"]["nanoseconds"].as<std::int64_t>();
   bag.start_ns = node["starting_time"]["nanoseconds_since_epoch"].as<std::int64_t>();
   bag.message_count = node["message_count"].as<std::uint64_t>();
-  for (const auto& topic : node["topics_with_message_count"]) {
-    bag.topics.push_back(read_topic(topic));
-  }
+  bag.topics = read_topics(node["topics_with_message_count"], bytes);
   bag.compression_format = node["compression_format"].as<std::string>("");
   bag.compression_mode = node["compression_mode"].as<std::string>("");
   for (const auto& file : node["files"]) {  // since version 5
@@ -187,7 +200,7 @@ BagMetadata parse_metadata(const std::string& yaml, const std::filesystem::path&
     if (!node["version"] || !node["storage_identifier"]) {
       throw fail("has no " + std::string(kRootKey) + " with version and storage_identifier");
     }
-    return read_bag(node);
+    return read_bag(node, yaml.size());
   } catch (const YAML::Exception& error) {
     const auto line = error.mark.is_null() ? std::string() : "line " + std::to_string(error.mark.line + 1) + ": ";
     throw fail(line + error.msg);

@@ -92,6 +92,28 @@ TEST(BagMetadata, ThatIsBrokenIsRefusedWithFileAndLine) {
   EXPECT_NE(test::error_of([] { parse_metadata("a: 1\nb: [\n", "metadata.yaml"); }).find("line "), std::string::npos);
 }
 
+/// `count` topics with `count` profiles each, all but the first by alias.
+std::string metadata_with_aliases(int count) {
+  std::string text =
+      "{version: 9, storage_identifier: mcap, duration: {nanoseconds: 0}, starting_time: {nanoseconds_since_epoch: 0}, "
+      "message_count: 0, topics_with_message_count: [&t {message_count: 0, topic_metadata: {name: /a, type: b, "
+      "serialization_format: cdr, offered_qos_profiles: [&p {history: 1, depth: 1, reliability: 1, durability: 1, "
+      "deadline: &z {sec: 0, nsec: 0}, lifespan: *z, liveliness: 1, liveliness_lease_duration: *z, "
+      "avoid_ros_namespace_conventions: false}";
+  for (int i = 1; i < count; ++i) text += ", *p";
+  text += "]}}";
+  for (int i = 1; i < count; ++i) text += ", *t";
+  return text + "]}";
+}
+
+TEST(BagMetadata, ThatAliasesBlowUpIsRefused) {
+  const auto sound = parse_metadata(metadata_with_aliases(20), "metadata.yaml");
+  ASSERT_EQ(sound.topics.size(), 20u);
+  EXPECT_EQ(sound.topics[19].offered_qos_profiles.size(), 20u);
+  const auto error = test::error_of([] { parse_metadata(metadata_with_aliases(1000), "metadata.yaml"); });
+  EXPECT_NE(error.find("metadata.yaml: line 1: aliases repeat"), std::string::npos) << error;
+}
+
 TEST(BagMetadata, ReplacesTheFileAtOnceAndLeavesNothingElse) {
   const panvo::test::TemporaryFolder folder;
   write_metadata(folder.path(), example(), false);
