@@ -27,6 +27,11 @@ std::int16_t quantised(float response) {
   return static_cast<std::int16_t>(std::lround(std::clamp(response * kUnit, -32767.0F, 32767.0F)));
 }
 
+/// Of the rules' range also where a landmark breaks them: terms are integers, which have no room for others.
+float valid_weight(const AdaptiveFeature& feature) {
+  return feature.weight > 0.0F ? std::min(1.0F, feature.weight) : 0.0F;  // 0 for NaN, too
+}
+
 void add_terms_plain(std::span<const IndexedFeature> features, const std::int16_t* responses,
                      std::span<std::uint16_t> sums) {
   constexpr std::size_t kLanes = cv::v_uint16x8::nlanes;
@@ -117,12 +122,12 @@ LargeScaleIndex& LargeScaleIndex::operator=(LargeScaleIndex&&) noexcept = defaul
 void LargeScaleIndex::add(std::uint32_t id, const PanoramaDescription& description) {
   const auto& features = description.large;
   const float weights = std::accumulate(features.begin(), features.end(), 1.0F,
-                                        [](float sum, const auto& feature) { return sum + feature.weight; });
+                                        [](float sum, const auto& feature) { return sum + valid_weight(feature); });
   // Factors fit into 16 bits if no cap exceeds the smallest spread.
   const float per_weight = std::min(kMaxSum / weights, kUnit * kMinFeatureSpread);
   std::vector<IndexedFeature> indexed;
   for (const auto& feature : features) {
-    const float cap = std::floor(std::min(1.0F, feature.weight) * per_weight);
+    const float cap = std::floor(valid_weight(feature) * per_weight);
     const float factor = std::round(cap * 65536.0F / (kUnit * std::max(kMinFeatureSpread, feature.scale)));
     indexed.push_back({feature.row, quantised(feature.value), static_cast<std::uint16_t>(std::min(factor, 65535.0F)),
                        static_cast<std::uint16_t>(cap)});

@@ -99,6 +99,19 @@ TEST(LargeScaleIndex, PutsLandmarksWithoutFeaturesLast) {
   EXPECT_EQ(ranking.nearest[1].distance, 1.0F);
 }
 
+TEST(LargeScaleIndex, CountsNoWeightThatBreaksTheRules) {
+  auto broken = places()[0];
+  broken.large.resize(10);
+  LargeScaleIndex index;
+  index.add(1, broken);
+  for (const float weight : {-0.02F, -1e30F, -INFINITY, NAN}) broken.large.push_back({0, 4.0F, 0.1F, weight});
+  index.add(2, broken);
+  const auto nearest = index.rank(seen_again(1), 2, everyone).nearest;
+  ASSERT_THAT(nearest, SizeIs(2));
+  EXPECT_LT(nearest[0].distance, 1.0F);
+  EXPECT_EQ(nearest[0].distance, nearest[1].distance);
+}
+
 TEST(LargeScaleIndex, OrdersEqualLandmarksById) {
   LargeScaleIndex index;
   for (const std::uint32_t id : {5U, 2U, 9U}) index.add(id, places()[0]);
