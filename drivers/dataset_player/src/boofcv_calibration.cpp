@@ -66,13 +66,13 @@ class XmlReader {
 
 vision::LensCamera read_camera(const XmlReader& xml, const tinyxml2::XMLElement& element) {
   const auto value = [&](const char* name) { return xml.number(xml.child(element, name)); };
+  const auto pixels = [&](const char* name) {
+    const double length = value(name);
+    if (!(length >= 1.0 && length <= 65536.0)) xml.fail(xml.child(element, name), "must be from 1 to 65536 px");
+    return static_cast<int>(length);
+  };
   vision::LensCamera camera;
-  camera.pinhole = {value("fx"),
-                    value("fy"),
-                    value("cx"),
-                    value("cy"),
-                    static_cast<int>(value("width")),
-                    static_cast<int>(value("height"))};
+  camera.pinhole = {value("fx"), value("fy"), value("cx"), value("cy"), pixels("width"), pixels("height")};
   if (xml.find(element, "skew") != nullptr && value("skew") != 0.0) {
     xml.fail(xml.child(element, "skew"), "is not zero: skewed pixels are not supported; calibrate with zero skew");
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "layouts.hpp"
 #include "panvo/calibration_files/mount.hpp"
@@ -67,6 +68,15 @@ void expect_image_size(const vision::PinholeCamera& camera, const fs::path& cali
       "this camera for this size",
       calibration_file.string(), camera.width, camera.height, frames.front().left.parent_path().string(), size.width,
       size.height));
+}
+
+std::int64_t stamp_at(std::uint64_t place, double rate_hz, const fs::path& image) {
+  const double stamp_ns = static_cast<double>(place) * 1e9 / rate_hz;
+  if (stamp_ns < static_cast<double>(kEndOfStamps_ns)) return std::llround(stamp_ns);
+  throw DatasetError(fmt::format(
+      "{}: at {:g} Hz, image {} would be later than stamps can be; number the images from 0, set a higher rate_hz, "
+      "or add times",
+      image.string(), rate_hz, place));
 }
 
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "layouts.hpp"
 
 namespace panvo::dataset_player {
@@ -58,7 +56,7 @@ Dataset read_folders(const fs::path& directory, const ReadOptions& options) {
   }
   StereoRecording stereo;
   for (const auto& pair : folders.pairs) {
-    stereo.frames.push_back({std::llround(static_cast<double>(pair.place) * 1e9 / rate_hz), pair.left, pair.right});
+    stereo.frames.push_back({stamp_at(pair.place, rate_hz, pair.left), pair.left, pair.right});
   }
   const auto [calibrated, file] =
       find_calibration(options.calibration.empty() ? directory : options.calibration, stereo.frames);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
 #include <functional>
 #include <map>
 
 #include "calibration_values.hpp"
 #include "layouts.hpp"
 #include "panvo/dataset_player/ground_truth.hpp"
+#include "panvo/interfaces/check.hpp"
 #include "text_file.hpp"
 
 namespace panvo::dataset_player {
@@ -52,6 +52,10 @@ void read_calibration(const fs::path& path, const Eyes& eyes, StereoRecording& s
   for (const char* name : {eyes.left_projection, eyes.right_projection}) {
     if (!projections.contains(name))
       throw DatasetError(fmt::format("{}: has no line {} for {}", path.string(), name, eyes.left_folder));
+    if (!(translation(projections.at(name)).cwiseAbs().maxCoeff() <= interfaces::kMaxCoordinate_m)) {  // nor NaN
+      throw DatasetError(
+          fmt::format("{}: {} places no camera near camera 0; copy calib.txt again", path.string(), name));
+    }
   }
   const auto& left = projections.at(eyes.left_projection);
   const auto& right = projections.at(eyes.right_projection);
@@ -84,12 +88,7 @@ std::function<std::int64_t(const NumberedPair&)> read_clock(const fs::path& time
   if (options.rate_hz <= 0.0)
     notes.push_back(fmt::format("no times.txt: {} Hz is assumed (parameter rate_hz)", kKittiRateHz));
   const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kKittiRateHz;
-  return [rate_hz](const NumberedPair& pair) -> std::int64_t {
-    constexpr std::uint64_t kMaxImages = 100'000'000;
-    if (pair.number < kMaxImages) return std::llround(static_cast<double>(pair.number) * 1e9 / rate_hz);
-    throw DatasetError(pair.left.string() +
-                       ": its number is too large for a frame number; number the images from 000000, or add times.txt");
-  };
+  return [rate_hz](const NumberedPair& pair) { return stamp_at(pair.number, rate_hz, pair.left); };
 }
 
 }  // namespace

@@ -59,6 +59,10 @@ ImageSize stereo_image_size(const std::vector<StereoFrame>& frames);
 void expect_image_size(const vision::PinholeCamera& camera, const std::filesystem::path& calibration_file,
                        const std::vector<StereoFrame>& frames);
 
+/// The stamp of the image `place` of a recording without times. Throws DatasetError, naming the image, if messages cannot
+/// hold it.
+std::int64_t stamp_at(std::uint64_t place, double rate_hz, const std::filesystem::path& image);
+
 /// Two images with the same number in their names.
 struct NumberedPair {
   std::size_t place =

@@ -2,6 +2,7 @@
 #include "panvo/dataset_player/passes.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace panvo::dataset_player {
@@ -15,6 +16,10 @@ Passes::Passes(std::vector<TimelineEvent> events, std::uint64_t count) : first_(
   begin_ns_ = std::find_if(first_.begin(), first_.end(), is_image)->stamp_ns;
   const std::int64_t end_ns = std::find_if(first_.rbegin(), first_.rend(), is_image)->stamp_ns;
   length_ns_ = end_ns - begin_ns_;
+  const auto longest_ns = (kEndOfStamps_ns - 1 - begin_ns_) / static_cast<std::int64_t>(count);
+  if (length_ns_ > longest_ns) {
+    throw DatasetError(std::to_string(count) + " passes end later than stamps can be, in 2038; play fewer (passes)");
+  }
   // Ground truth after the last image would overlap with the next pass.
   std::erase_if(first_, [&](const TimelineEvent& event) { return event.stamp_ns > end_ns; });
   for (auto event : first_) {

@@ -62,16 +62,19 @@ double TextFile::number(const TextLine& line, std::size_t field) const {
 
 std::int64_t TextFile::nanoseconds(const TextLine& line, std::size_t field) const {
   std::int64_t value = 0;
-  if (!parse(text(line, field), value) || value < 0) {
-    fail(line, "stamp '" + line.fields[field] + "' is not a whole number of nanoseconds; correct or remove the line");
+  if (!parse(text(line, field), value) || value < 0 || value >= kEndOfStamps_ns) {
+    fail(line, "stamp '" + line.fields[field] +
+                   "' is not a whole number of nanoseconds from 1970 to 2038; correct or remove the line");
   }
   return value;
 }
 
 std::int64_t TextFile::seconds_as_ns(const TextLine& line, std::size_t field) const {
+  constexpr long double kEnd_s = kEndOfStamps_ns / 1'000'000'000 - 1;  // rounding stays below
   long double seconds = 0.0L;  // a double loses hundreds of ns of a time since 1970
-  if (!parse(text(line, field), seconds) || !(seconds >= 0.0L && seconds < 9.2e9L)) {
-    fail(line, "time '" + line.fields[field] + "' is not a number of seconds; correct or remove the line");
+  if (!parse(text(line, field), seconds) || !(seconds >= 0.0L && seconds < kEnd_s)) {
+    fail(line,
+         "time '" + line.fields[field] + "' is not a number of seconds from 1970 to 2038; correct or remove the line");
   }
   return std::llround(seconds * 1e9L);
 }

@@ -78,6 +78,16 @@ TEST_F(CalibrationFile, OfBoofcvThatWasCutOffIsRefused) {
               AllOf(HasSubstr("c.xml"), HasSubstr("cut off")));
 }
 
+TEST_F(CalibrationFile, OfBoofcvNamesTheLineOfASizeThatNoImageHas) {
+  for (const char* width : {"1e300", "-64", "NaN"}) {
+    auto text = boofcv_calibration();
+    text.replace(text.find("<width>64</width>"), 17, std::string("<width>") + width + "</width>");
+    write("c.xml", text);
+    EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }),
+                AllOf(HasSubstr("c.xml:3:"), HasSubstr("<width> must be from 1 to 65536 px")));
+  }
+}
+
 TEST_F(CalibrationFile, WithABaselineOfZeroIsRefused) {
   write("c.xml", boofcv_calibration(0.0));
   EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }),

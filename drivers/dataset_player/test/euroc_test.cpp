@@ -124,6 +124,14 @@ TEST_F(EurocDataset, NamesTheLineOfAStampThatGoesBack) {
   EXPECT_THAT(error(), AllOf(HasSubstr("cam0/data.csv:5:"), HasSubstr("must increase")));
 }
 
+TEST_F(EurocDataset, NamesTheLineOfAStampThatMessagesCannotHold) {
+  write_euroc();
+  for (const char* stamp : {"2147483648000000000", "9223372036854775807", "-1"}) {
+    write("mav0/cam0/data.csv", fmt::format("1000000000,1000000000.png\n{},1050000000.png\n", stamp));
+    EXPECT_THAT(error(), AllOf(HasSubstr("cam0/data.csv:2:"), HasSubstr("from 1970 to 2038"))) << stamp;
+  }
+}
+
 TEST_F(EurocDataset, RefusesAListWithoutImages) {
   write_euroc();
   write("mav0/cam0/data.csv", "#timestamp [ns],filename\n");

@@ -27,6 +27,11 @@ TEST_F(Folders, ArePlayedAtThirtyHertzUnlessSaidOtherwise) {
   EXPECT_EQ(open_dataset(root_, {.rate_hz = 10.0}).stereo->frames[3].stamp_ns, 300'000'000);
 }
 
+TEST_F(Folders, AreNotPlayedSoSlowlyThatMessagesCannotHoldTheirStamps) {
+  write_folders(3);
+  EXPECT_THROW(open_dataset(root_, {.rate_hz = 1e-12}), DatasetError);
+}
+
 TEST_F(Folders, KeepTheTimeOfFramesAfterAGap) {
   write_folders(4);
   fs::remove(root_ / "left/left2.jpg");

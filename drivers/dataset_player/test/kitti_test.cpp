@@ -52,6 +52,20 @@ TEST_F(KittiDataset, NamesTheLineOfATimeThatIsNoNumber) {
   EXPECT_THAT(error(), AllOf(HasSubstr("times.txt:2:"), HasSubstr("'nan'")));
 }
 
+TEST_F(KittiDataset, NamesTheLineOfATimeThatMessagesCannotHold) {
+  write_kitti();
+  write("times.txt", "0.0\n0.1\n2147483648\n");
+  EXPECT_THAT(error(), AllOf(HasSubstr("times.txt:3:"), HasSubstr("from 1970 to 2038")));
+}
+
+TEST_F(KittiDataset, NamesTheImageThatWouldBeLaterThanMessagesCanHold) {
+  write_kitti();
+  EXPECT_THROW(open_dataset(root_, {.rate_hz = 1e-12}), DatasetError);
+  write_image("image_0/18000000000000000000.png");
+  write_image("image_1/18000000000000000000.png");
+  EXPECT_THAT(error(), AllOf(HasSubstr("image_0/18000000000000000000.png"), HasSubstr("later than stamps can be")));
+}
+
 TEST_F(KittiDataset, RefusesTimesThatEndBeforeTheImages) {
   write_kitti();
   write("times.txt", "0.0\n0.1\n");
@@ -141,6 +155,12 @@ TEST_F(KittiDataset, NamesTheLineOfACalibrationThatNoCameraHas) {
   EXPECT_THAT(error(), AllOf(HasSubstr("calib.txt:2:"), HasSubstr("1e300"), HasSubstr("plausible size")));
   write("calib.txt", "P0: 1e7 0 32 0 0 1e7 24 0 0 0 1 0\nP1: 1e7 0 32 -1e7 0 1e7 24 0 0 0 1 0\n");
   EXPECT_THAT(error(), AllOf(HasSubstr("calib.txt"), HasSubstr("focal length")));
+}
+
+TEST_F(KittiDataset, RefusesACalibrationWhoseCamerasAreNowhere) {
+  write_kitti();
+  write("calib.txt", "P0: 50 0 32 0 0 50 24 0 0 0 1e-9 1\nP1: 50 0 32 -10 0 50 24 0 0 0 1e-9 1\n");  // 1e9 m away
+  EXPECT_THAT(error(), AllOf(HasSubstr("calib.txt"), HasSubstr("P0: places no camera")));
 }
 
 TEST_F(KittiDataset, NamesTheLineOfACalibrationThatWasCutOff) {

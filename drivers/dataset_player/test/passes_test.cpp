@@ -43,5 +43,15 @@ TEST(Passes, TurnAtTheImagesOfBothEndsAndPlayThoseOnce) {
   EXPECT_EQ(played(4), expected);
 }
 
+TEST(Passes, MustEndBeforeStampsDo) {
+  constexpr std::int64_t kYear_ns = 31'557'600'000'000'000;
+  const std::vector<TimelineEvent> two_years{{kYear_ns, Kind::kStereo, 0}, {3 * kYear_ns, Kind::kStereo, 1}};
+  const Passes last(two_years, 33);  // until 1970 + 67
+  EXPECT_EQ(last[last.size() - 1].stamp_ns, 67 * kYear_ns);
+  EXPECT_THROW(Passes(two_years, 34), DatasetError);
+  const std::vector<TimelineEvent> whole{{0, Kind::kStereo, 0}, {68 * kYear_ns, Kind::kStereo, 1}};
+  EXPECT_THROW(Passes(whole, 1'000'000), DatasetError);
+}
+
 }  // namespace
 }  // namespace panvo::dataset_player

@@ -13,7 +13,8 @@ namespace panvo::dataset_player {
 class Passes {
  public:
   Passes() = default;
-  /// `events`: from timeline(). `count`: number of passes, at least 1; one pass is `events` unchanged.
+  /// `events`: from timeline(). `count`: number of passes, at least 1; one pass is `events` unchanged. Throws
+  /// DatasetError if messages cannot hold the stamps of the last pass.
   Passes(std::vector<TimelineEvent> events, std::uint64_t count);
 
   std::uint64_t size() const noexcept { return size_; }
