@@ -92,6 +92,7 @@ export class App {
       case "messages":
         for (const message of happening.messages) this.drive.take(message);
         if (happening.messages.some(({ role }) => poseRoles.includes(role))) this.#poseCame_ms = performance.now();
+        if (happening.messages.some(({ role }) => role === "points")) this.cameras.onFeatures();
         break;
       case "image":
         this.cameras.show(happening);

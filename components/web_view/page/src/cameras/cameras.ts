@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panorama with its directions, the recognised place below it, turned to the same heading, and the left image. */
-import type { Happening } from "../link/events.ts";
 import { imageTypes, preferredImage } from "../link/roles.ts";
 import type { Drive } from "../model/drive.ts";
 import { momentOf } from "../model/moment.ts";
@@ -11,11 +10,11 @@ import { MatchLines, linesBetween, shownIn } from "./match_lines.ts";
 import { Picture } from "./picture.ts";
 import { RecordedPictures } from "./recorded_pictures.ts";
 import { Thumbnails } from "./thumbnails.ts";
+import { WaitingImages, type ImageHappening } from "./waiting_images.ts";
 
 const matchAge_s = 0.7; // between the panorama that is shown and the one whose points are known
 
 type Kind = "panorama" | "left";
-type ImageHappening = Extract<Happening, { kind: "image" }>;
 
 /** A tap shows the whole height of the picture, another one its middle again. */
 function pictureFrame(...children: HTMLElement[]): HTMLElement {
@@ -69,6 +68,7 @@ export class Cameras {
   #drawnPlace = "";
   #legend = new FeatureLegend();
   #drawnFeatures_s = NaN; // stamp of the image into which they are drawn
+  #waiting = new WaitingImages();
   #isVisible = true;
   #recorded: RecordedPictures[] = [];
   #cursor_s: number | undefined;
@@ -80,7 +80,10 @@ export class Cameras {
     readonly onTopics: (topics: string[]) => void,
   ) {
     this.#panorama = new Camera("panorama", "Panorama", () => this.#tellTopics());
-    this.#left = new Camera("left", "Left camera", () => this.#tellTopics());
+    this.#left = new Camera("left", "Left camera", () => {
+      this.#waiting.clear();
+      this.#tellTopics();
+    });
     this.#left.element.append(this.#legend.element);
     this.#placeElement = h("figure.camera.place", { hidden: true }, h("figcaption", {}, this.#placeCaption, this.#lines.button), pictureFrame(this.#place.canvas), this.#lines.legend);
     const pair = h("div.pair", {}, this.#panorama.element, this.#placeElement, this.#lines.canvas);
@@ -99,17 +102,35 @@ export class Cameras {
   /** Images are received only while they are seen. */
   setVisible(isVisible: boolean): void {
     this.#isVisible = isVisible;
+    if (!isVisible) this.#waiting.clear();
     this.#tellTopics();
   }
 
-  show({ topic, frame, stamp_s, bitmap }: ImageHappening): void {
-    const camera = [this.#panorama, this.#left].find((one) => one.topic === topic);
-    if (!camera) return bitmap.close();
+  show(image: ImageHappening): void {
+    const camera = [this.#panorama, this.#left].find((one) => one.topic === image.topic);
+    if (!camera) return image.bitmap.close();
+    if (camera !== this.#left) return this.#showIn(camera, image);
+    const due = this.#hasFeatures ? this.#waiting.add(image, this.drive.features) : image;
+    if (due) this.#showIn(camera, due);
+  }
+
+  /** Shows the image to which the points belong that have just come. */
+  onFeatures(): void {
+    const due = this.#waiting.take(this.drive.features.newest);
+    if (due) this.#showIn(this.#left, due);
+  }
+
+  #showIn(camera: Camera, { frame, stamp_s, bitmap }: ImageHappening): void {
     Object.assign(camera, { frame, stamp_s });
     camera.picture.show(bitmap);
     camera.element.hidden = false;
     setText(camera.note, "");
     if (camera === this.#left) this.#updateFeatures();
+  }
+
+  /** The points are those of the rectified image. */
+  get #hasFeatures(): boolean {
+    return this.#left.topic?.includes("image_rect") ?? false;
   }
 
   fault(topic: string, why: string): void {
@@ -184,10 +205,9 @@ export class Cameras {
     });
   }
 
-  /** The points are those of the rectified image, and come shortly before or after it. */
   #updateFeatures(): void {
-    const { picture, stamp_s, topic } = this.#left;
-    if (stamp_s === this.#drawnFeatures_s || !topic?.includes("image_rect")) return;
+    const { picture, stamp_s } = this.#left;
+    if (stamp_s === this.#drawnFeatures_s || !this.#hasFeatures) return;
     const trails = this.drive.features.at(stamp_s);
     if (!trails) return;
     this.#drawnFeatures_s = stamp_s;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import test from "node:test";
+import { WaitingImages, type ImageHappening } from "../../src/cameras/waiting_images.ts";
 import { FeatureTrails, featuresOf } from "../../src/model/features.ts";
 import type { PointCloud } from "../../src/model/point_cloud.ts";
 import { near, pointCloud } from "./make.ts";
@@ -39,4 +40,22 @@ test("a recording that starts again forgets the trails", () => {
   trails.add({ time: 1, points: [] });
   assert.equal(trails.at(5), undefined);
   assert.deepEqual(trails.at(1), []);
+});
+
+test("an image waits for its points, but not for ever", () => {
+  const waiting = new WaitingImages();
+  const closed: number[] = [];
+  const imageAt = (stamp_s: number): ImageHappening => ({ kind: "image", topic: "left", frame: "left", stamp_s, bitmap: { close: () => closed.push(stamp_s) } as unknown as ImageBitmap });
+  const shown = (stamp_s: number, newest: number) => waiting.add(imageAt(stamp_s), { newest })?.stamp_s;
+  assert.equal(shown(1, -Infinity), 1); // there is no odometry
+  assert.equal(shown(2, 2), 2); // its points are there
+  assert.equal(shown(2.25, 2), undefined);
+  assert.equal(shown(2.5, 2), undefined);
+  assert.equal(waiting.take(2), undefined);
+  assert.equal(waiting.take(2.5)?.stamp_s, 2.5); // the newest one
+  assert.deepEqual(closed, [2.25]);
+  for (const stamp_s of [3, 3.125, 3.25, 3.375, 3.5]) assert.equal(shown(stamp_s, 2.75), undefined);
+  assert.equal(shown(3.625, 2.75), 3); // points come later than the images of a fifth of a second
+  assert.equal(shown(4, 2.75), 4); // no points for more than a second
+  assert.equal(waiting.take(9), undefined);
 });
