@@ -6,6 +6,7 @@ import type { Happening, Order } from "./link/events.ts";
 import { initialPose } from "./link/initial_pose.ts";
 import { MapView } from "./map/map.ts";
 import { Drive } from "./model/drive.ts";
+import type { Entry } from "./model/happenings.ts";
 import type { Heads } from "./model/head.ts";
 import { panoramaFrame, playInto, type RecordedDrive } from "./model/recorded_drive.ts";
 import { restoreSnapshot, takeSnapshot, type Snapshot } from "./model/snapshot.ts";
@@ -15,6 +16,7 @@ import { EventsPanel } from "./panels/events_panel.ts";
 import { MapPanel } from "./panels/map_panel.ts";
 import { ParametersPanel } from "./panels/parameters_panel.ts";
 import { PlayerPanel } from "./panels/player_panel.ts";
+import { RecorderPanel } from "./panels/recorder_panel.ts";
 import { ReportPanel } from "./panels/report_panel.ts";
 import { StatePanel } from "./panels/state_panel.ts";
 import { SystemPanel } from "./panels/system_panel.ts";
@@ -58,9 +60,10 @@ export class App {
     this.cameras.showAt(time);
     this.#updateState();
   });
-  #events = new EventsPanel(byId("events"), this.drive, ({ at }) => at && this.#showOnMap(at));
+  #events = new EventsPanel(byId("events"), this.drive, (entry) => this.#showEvent(entry));
   #system = new SystemPanel(byId("components"), this.drive);
   #player = new PlayerPanel(byId("player"), this.#call);
+  #recorders = new RecorderPanel(byId("recorders"), this.#call);
   #actions = new ActionsPanel(byId("actions"), this.#call);
   #parameters = new ParametersPanel(byId("parameters"), (order) => this.send(order), this.#call);
   #tabs = new Tabs(() => this.#onTab());
@@ -77,7 +80,10 @@ export class App {
     this.mapPanel.update();
     if (this.#tabs.isSeen("cameras")) this.cameras.update();
     if (this.#tabs.isSeen("events")) this.#events.update();
-    if (this.#tabs.isSeen("system")) this.#system.update();
+    if (this.#tabs.isSeen("system")) {
+      this.#system.update();
+      this.#recorders.update();
+    }
     if (this.#tabs.isSeen("time")) this.#timeline.update();
   }
 
@@ -117,6 +123,7 @@ export class App {
         break;
       case "services":
         this.#actions.offer(happening.services);
+        this.#recorders.offer(happening.services);
         this.#player.offer(happening.services);
         break;
       case "parameters":
@@ -213,13 +220,16 @@ export class App {
     this.connection.opened();
     this.mapPanel.setControl(capabilities.includes("clientPublish"));
     this.#parameters.setAllowed(capabilities.includes("parameters"), capabilities.includes("clientPublish"));
-    if (!capabilities.includes("services")) this.#actions.offer([]);
+    if (capabilities.includes("services")) return;
+    this.#actions.offer([]);
+    this.#recorders.offer([]);
   }
 
   #onLost(wasOpen: boolean, retry_ms: number): void {
     this.mapPanel.setControl(false);
     this.#parameters.setAllowed(false, false);
     this.#actions.offer([]);
+    this.#recorders.offer([]);
     this.#player.offer([]);
     void this.connection.lost(wasOpen, retry_ms);
   }
@@ -231,7 +241,10 @@ export class App {
     else waiting?.reject(new Error(fault));
   }
 
-  #showOnMap(at: { x: number; y: number }): void {
+  /** Where it happened; in a recorded drive, the cursor goes to its time. */
+  #showEvent({ at, time }: Entry): void {
+    if (this.#heads) this.#timeline.moveTo(time);
+    if (!at) return;
     this.map.centre(at);
     if (!this.#tabs.isSeen("map")) this.#tabs.choose("map");
   }

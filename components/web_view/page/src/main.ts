@@ -22,7 +22,7 @@ if (snapshot) {
 }
 
 byId("snapshot-button").onclick = () => void app.takeSnapshot();
-byId("help-button").onclick = () => help.showModal();
+byId("help-button").onclick = byId("help-more").onclick = () => help.showModal();
 byId("help-close").onclick = () => help.close();
 byId("report-button").onclick = () => app.report.open();
 byId("report-close").onclick = () => app.report.close();

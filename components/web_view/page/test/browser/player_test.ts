@@ -134,3 +134,32 @@ test("a recorder is not taken for a player, although it can be paused", async ()
   assert.deepEqual(seen.both, { hidden: false, title: seen.before, asked: ["/rosbag2_player/is_paused", "/rosbag2_player/get_rate"] });
   await page.close();
 });
+
+test("a recorder is paused and goes on", async () => {
+  const page = await opened(390, 844);
+  await page.click('.tabs button[data-tab="system"]');
+  await page.evaluate(actAsPlayer, false);
+  await page.evaluate(() => {
+    const recorder = { paused: false, asked: [] as string[] };
+    panvo.send = (order) => {
+      if (order.kind !== "call") return;
+      const name = order.service.replace("/robot/rosbag2_recorder/", "");
+      if (!/is_paused|get_rate/.test(name)) recorder.asked.push(name);
+      if (name === "pause" || name === "resume") recorder.paused = name === "pause";
+      queueMicrotask(() => player.tells({ kind: "reply", call: order.call, response: recorder }));
+    };
+    const names = ["Pause", "Resume", "IsPaused"].map((type) => ({ name: `/robot/rosbag2_recorder/${type.replace(/\B[A-Z]/g, "_$&").toLowerCase()}`, type: `rosbag2_interfaces/srv/${type}` }));
+    player.tells({ kind: "services", services: [...player.offered, ...names] }); // beside the player, which is none
+    Object.assign(globalThis, { recorder });
+  });
+  const shows = (text: string) => page.waitForFunction((what) => (document.getElementById("recorders") as HTMLElement).innerText.replace(/\s+/g, " ") === what, { polling: 100 }, text);
+  await shows("Recording robot/rosbag2_recorder records Pause");
+  await page.click("#recorders button");
+  await shows("Recording robot/rosbag2_recorder paused Record");
+  await page.click("#recorders button");
+  await shows("Recording robot/rosbag2_recorder records Pause");
+  assert.deepEqual(await page.evaluate(() => (globalThis as unknown as { recorder: { asked: string[] } }).recorder.asked), ["pause", "resume"]);
+  await page.evaluate(() => player.tells({ kind: "services", services: player.offered }));
+  assert.equal(await page.$eval("#recorders", (element) => (element as HTMLElement).hidden), true);
+  await page.close();
+});
