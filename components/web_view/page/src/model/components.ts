@@ -5,7 +5,7 @@ import type { DiagnosticArray } from "./messages.ts";
 export interface Input {
   topic: string;
   rate_hz?: number;
-  latency_ms?: number; // p95
+  latency_ms?: number; // from its arrival until it was handled, p95
   dropped: number;
 }
 
@@ -70,6 +70,12 @@ function read(component: Component, input: (topic: string) => Input, key: string
   } else {
     component.other.push({ key, value });
   }
+}
+
+/** p95 of the input that is handled latest, ms; undefined if there is none. */
+export function latencyOf({ inputs }: Component): number | undefined {
+  const latencies = inputs.map(({ latency_ms }) => latency_ms).filter((one) => one !== undefined);
+  return latencies.length > 0 ? Math.max(...latencies) : undefined;
 }
 
 export const droppedBy = ({ inputs }: Component): number => inputs.reduce((sum, { dropped }) => sum + dropped, 0);

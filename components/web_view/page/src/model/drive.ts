@@ -3,7 +3,7 @@
 import type { RoleMessage } from "../link/events.ts";
 import type { Role } from "../link/roles.ts";
 import { mapFromFrame } from "./anchor.ts";
-import { componentsOf, droppedBy, type Component } from "./components.ts";
+import { componentsOf, droppedBy, latencyOf, type Component } from "./components.ts";
 import { FeatureTrails, type Features } from "./features.ts";
 import { composed, distance, ellipseOf, flat, identity, wrapped, yawOf, type Ellipse, type Pose2 } from "./geometry.ts";
 import { correctionOf, entryOfPass, entryOfState, type Correction, type Entry } from "./happenings.ts";
@@ -51,6 +51,7 @@ export class Drive {
   components = new Map<string, Component>();
   series = Object.fromEntries(seriesNames.map((name) => [name, new Series()])) as Record<SeriesName, Series>;
   dropped = new Map<string, Series>(); // messages, by component
+  latency = new Map<string, Series>();
   cpu = new Map<string, Series>();
   memory = new Map<string, Series>();
   yawOfFrame = new Map<string, number>(); // of a camera's view direction in the vehicle, rad
@@ -228,6 +229,7 @@ export class Drive {
     for (const component of componentsOf(message)) {
       this.components.set(component.name, component);
       if (component.inputs.length > 0) add(this.dropped, component.name, droppedBy(component));
+      add(this.latency, component.name, latencyOf(component));
       add(this.cpu, component.name, component.cpu_percent);
       add(this.memory, component.name, component.memory_mb);
     }
@@ -304,9 +306,9 @@ export class Drive {
   /** The time went back: a bag was moved, or started again. What lies before stays. */
   #goBack(time: number): void {
     if (!(time > this.begin + restart_s)) return this.#restart(this.yawOfFrame, this.components);
-    const { enhanced, binocular, truth, dropped, cpu, memory } = this;
+    const { enhanced, binocular, truth, dropped, latency, cpu, memory } = this;
     for (const path of [enhanced, binocular, truth]) path.cut(time);
-    for (const series of [...Object.values(this.series), ...dropped.values(), ...cpu.values(), ...memory.values()]) series.cut(time);
+    for (const series of [...Object.values(this.series), ...dropped.values(), ...latency.values(), ...cpu.values(), ...memory.values()]) series.cut(time);
     for (const { place } of this.corrections.filter((one) => one.time >= time && one.outcome === m.Outcome.applied)) {
       const seen = this.places.all.get(place);
       if (seen) --seen.corrections;

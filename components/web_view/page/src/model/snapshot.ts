@@ -20,7 +20,7 @@ export interface Snapshot {
 }
 
 const pathNames = ["enhanced", "binocular", "truth"] as const;
-const groupNames = ["dropped", "cpu", "memory"] as const;
+const groupNames = ["dropped", "latency", "cpu", "memory"] as const;
 const plain = [
   "mapFromOdom", "mapFromTruth", "now", "begin", "speed", "ellipse", "corrections", "entries", "states", "state", "integrity", "quality", "match", "recognised",
 ] as const satisfies readonly (keyof Drive)[];

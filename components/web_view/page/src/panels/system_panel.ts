@@ -31,7 +31,7 @@ class ComponentRow {
     if (!(this.element as HTMLDetailsElement).open) return;
     const rows = [
       ...inputs.map(({ topic, rate_hz, latency_ms, dropped: lost }) => {
-        const latency = latency_ms === undefined ? "" : `, ${latency_ms.toFixed(1)} ms waiting (p95)`;
+        const latency = latency_ms === undefined ? "" : `, handled within ${latency_ms.toFixed(1)} ms (p95)`;
         return [topic, `${(rate_hz ?? 0).toFixed(1)} Hz${latency}${lost > 0 ? `, ${lost} dropped` : ""}`];
       }),
       ...stages.map(({ name, mean_ms, p95_ms }) => [name, `${mean_ms.toFixed(1)} ms, p95 ${p95_ms.toFixed(1)} ms`]),
@@ -42,11 +42,12 @@ class ComponentRow {
 }
 
 export class SystemPanel {
+  #heading = h("h3", {}, "Connection");
   #connection = h("dl.facts");
   #components = h("div.components");
   #unknown = h("ul.unknown");
   #rows = new Map<string, ComponentRow>();
-  #empty = h("p.empty", {}, "No component publishes /diagnostics.");
+  #empty = h("p.empty", {}, "No component has published /diagnostics.");
   #facts: [string, string][] = [];
   #bytes = 0;
   #notice = "";
@@ -55,7 +56,7 @@ export class SystemPanel {
     readonly element: HTMLElement,
     readonly drive: Drive,
   ) {
-    element.append(h("h3", {}, "Connection"), this.#connection, this.#unknown, h("h3", {}, "Components"), this.#empty, this.#components);
+    element.append(this.#heading, this.#connection, this.#unknown, h("h3", {}, "Components"), this.#empty, this.#components);
   }
 
   /** What the server says without being asked. */
@@ -81,6 +82,7 @@ export class SystemPanel {
     this.#connection.replaceChildren(...this.#facts.flatMap(([name, text]) => [h("dt", {}, name), h("dd", {}, text)]));
     const { components } = this.drive;
     this.#empty.hidden = components.size > 0;
+    this.#connection.hidden = this.#heading.hidden = this.#facts.length === 0; // without a server
     for (const [name, component] of [...components].sort(([a], [b]) => a.localeCompare(b))) {
       let row = this.#rows.get(name);
       if (!row) {

@@ -52,11 +52,11 @@ export const charts: Chart[] = [
     format: metres,
     curves: of(
       ["1σ", "sigma", "enhanced"],
-      ["protection", "protection", "ink", [4, 3]],
-      ["error", "error", "binocular"],
+      ["protection", "protection", "enhanced", [4, 3]],
+      ["error", "error", "ink"],
     ),
   },
-  { title: "Turn rate", format: degreesPerSecond, curves: of(["odometry", "odometry", "binocular"], ["compass", "compass", "compass"]) },
+  { title: "Turn rate", format: degreesPerSecond, curves: of(["odometry", "odometry", "binocular"], ["compass", "compass", "compass", [3, 3]]) },
   { title: "Features", format: whole, curves: of(["tracked", "tracked", "soft"], ["inliers", "inliers", "enhanced"]) },
   { title: "Speed", format: (value) => `${value.toFixed(1)} m/s`, curves: of(["speed", "speed", "enhanced"]) },
   {
@@ -65,6 +65,7 @@ export const charts: Chart[] = [
     curves: of(["odometry", "odometryRate", "binocular"], ["pose", "poseRate", "enhanced"], ["panorama", "panoramaRate", "compass"]),
   },
   { title: "Messages dropped", format: whole, curves: each((drive) => drive.dropped, 0) },
+  { title: "Latency (p95)", format: (value) => `${value.toFixed(1)} ms`, curves: each((drive) => drive.latency, 0) },
   { title: "CPU", format: (value) => `${Math.round(value)} %`, curves: each((drive) => drive.cpu, 1) },
   { title: "Memory", format: (value) => `${Math.round(value)} MB`, curves: each((drive) => drive.memory, 0) },
 ];

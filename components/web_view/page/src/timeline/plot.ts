@@ -17,6 +17,7 @@ export class Plot {
   #plot: uPlot | undefined;
   #shown = ""; // the curves and colours that the plot was made for
   #curves: Curve[] = [];
+  #isUpdating = false; // what the plot tells of its cursor then is not of the user
 
   constructor(
     readonly chart: Chart,
@@ -42,16 +43,20 @@ export class Plot {
       const { times, values } = thinned(series, from, to, size.width * points_per_px);
       return [times, values] as uPlot.AlignedData;
     });
+    this.#isUpdating = true;
     plot.setData(tables.length === 1 ? tables[0]! : uPlot.join(tables, tables.map(() => [2])), false);
     plot.batch(() => {
       plot.setScale("x", { min: from, max: Math.max(to, from + 1) });
       plot.setScale("y", this.#range(tables));
     });
+    this.#isUpdating = false;
     this.tell(cursor);
   }
 
-  /** The values at a time, in words. */
+  /** The values at a time, in words, and the line at it. */
   tell(cursor: number | undefined): void {
+    const left = cursor === undefined ? -10 : (this.#plot?.valToPos(cursor, "x") ?? -10);
+    if (left !== this.#plot?.cursor.left) this.#plot?.setCursor({ left, top: left < 0 ? -10 : 0 }, false);
     const parts = this.#curves.map(({ label, series }) => {
       const value = cursor === undefined ? series.last : nearestValue(series, cursor);
       return { label, text: value === null ? "–" : this.chart.format(value) };
@@ -60,7 +65,8 @@ export class Plot {
       this.#values.replaceChildren(...this.#curves.map(() => h("span", {}, h("i"), h("span"), h("b"))));
     parts.forEach(({ label, text }, i) => {
       const [swatch, name, number] = this.#values.children[i]!.children as unknown as HTMLElement[];
-      swatch!.style.background = `var(--${this.#curves[i]!.colour})`;
+      const { colour, dash } = this.#curves[i]!;
+      swatch!.style.background = dash ? `repeating-linear-gradient(90deg, var(--${colour}) 0 3px, transparent 3px 6px)` : `var(--${colour})`;
       setText(name!, label);
       setText(number!, text);
     });
@@ -108,6 +114,7 @@ export class Plot {
         hooks: {
           setCursor: [
             (plot) => {
+              if (this.#isUpdating) return;
               const { left } = plot.cursor;
               this.onCursor(left === undefined || left < 0 ? undefined : plot.posToVal(left, "x"));
             },
@@ -117,5 +124,19 @@ export class Plot {
       [[], ...this.#curves.map(() => [])],
       this.#canvas,
     );
+    listenToFingers(this.#plot);
   }
+}
+
+/** uPlot knows only the mouse: a finger moves the cursor sideways, and the page up and down. */
+function listenToFingers(plot: uPlot): void {
+  const { over } = plot;
+  over.style.touchAction = "pan-y";
+  const listen = (name: "pointerdown" | "pointermove" | "pointerup" | "pointercancel", left: (event: PointerEvent) => number) =>
+    over.addEventListener(name, (event) => event.pointerType === "touch" && plot.setCursor({ left: left(event), top: 0 }));
+  const at = ({ clientX }: PointerEvent) => Math.min(Math.max(0, clientX - over.getBoundingClientRect().left), over.clientWidth);
+  listen("pointerdown", at);
+  listen("pointermove", at);
+  listen("pointerup", () => -10);
+  listen("pointercancel", () => -10);
 }

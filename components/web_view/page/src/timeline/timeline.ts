@@ -59,8 +59,12 @@ export class Timeline {
 
   /** Moves the cursor by some seconds of the drive. */
   step(seconds: number): void {
+    this.moveTo((this.cursor_s ?? this.drive.now) + seconds);
+  }
+
+  moveTo(time: number): void {
     const { begin, now } = this.drive;
-    this.#setCursor(Math.min(Math.max((this.cursor_s ?? now) + seconds, begin), now));
+    this.#setCursor(Math.min(Math.max(time, begin), now));
   }
 
   choose(window_s: number): void {
@@ -70,7 +74,7 @@ export class Timeline {
   }
 
   #setCursor(time: number | undefined): void {
-    if (time === this.cursor_s) return;
+    if (time === this.cursor_s || Math.abs(time! - this.cursor_s!) < 1e-3) return; // of a plot that has rounded it
     this.cursor_s = time;
     for (const plot of this.#plots) plot.tell(time);
     this.#tellTime();

@@ -89,6 +89,11 @@ test("the cursor moves along a recorded drive, with its pictures and the head of
   for (let i = 0; i < 5; ++i) await page.keyboard.press(".");
   await show(1);
   near(await cursor_s(), 7, 0.2);
+  const lines = await page.$$eval(".chart:not([hidden]) .u-over", (all) =>
+    all.map((over) => (over.querySelector(".u-cursor-x")!.getBoundingClientRect().left - over.getBoundingClientRect().left) / over.clientWidth),
+  );
+  const { begin, now } = await page.evaluate(() => panvo.drive);
+  for (const part of lines) near(part, ((await cursor_s()) - begin) / (now - begin), 0.01);
   assert.equal(await textOf("#state-title"), "Stereo cameras see too little");
   assert.match(await textOf("#state-reason"), /a bus/);
   assert.match(await textOf("#figures"), /True error\s+0\.[67]\d m/i);
