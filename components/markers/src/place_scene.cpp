@@ -15,8 +15,9 @@ namespace outcomes = panvo_msgs::msg::CorrectionOutcome_Constants;
 // In sizes of a place.
 constexpr double kHeadingLength = 2.0, kJunctionHeadingLength = 4.0, kHeadingWidth = 0.15;
 constexpr double kSightingWidth = 0.1;
-constexpr double kTextHeight = 0.8, kTextAbove = 1.2;
+constexpr double kTextHeight = 0.8, kTextBeside = 1.2;
 constexpr std::array kGreen{0.0F, 0.62F, 0.45F}, kGrey{0.6F, 0.6F, 0.6F}, kOrange{0.84F, 0.37F, 0.0F};
+constexpr std::array kTextGrey{0.45F, 0.45F, 0.45F};  // readable on light and on dark backgrounds
 
 std_msgs::msg::ColorRGBA colour(const std::array<float, 3>& rgb) {
   std_msgs::msg::ColorRGBA colour;
@@ -31,11 +32,11 @@ std_msgs::msg::ColorRGBA colour_of(std::uint8_t outcome) {
   return colour(outcome == outcomes::APPLIED ? kGreen : outcome == outcomes::BETTER_KNOWN ? kGrey : kOrange);
 }
 
-/// A point `forward_m` ahead of a pose.
-geometry_msgs::msg::Point ahead(const geometry_msgs::msg::Pose& pose, double forward_m) {
+/// A point relative to a pose: forward, left, up.
+geometry_msgs::msg::Point at(const geometry_msgs::msg::Pose& pose, const Eigen::Vector3d& offset_m) {
   const auto map_from_base = conversions::to_isometry(pose);
   if (!map_from_base) return pose.position();
-  const Eigen::Vector3d there = *map_from_base * Eigen::Vector3d(forward_m, 0.0, 0.0);
+  const Eigen::Vector3d there = *map_from_base * offset_m;
   geometry_msgs::msg::Point point;
   point.x(there.x());
   point.y(there.y());
@@ -107,7 +108,7 @@ PlaceScene::Marker PlaceScene::headings() const {
   for (const auto& [number, place] : places_) {
     const double length_m = parameters_.size_m * (place.is_junction ? kJunctionHeadingLength : kHeadingLength);
     lines.points().push_back(place.map_from_base.position());
-    lines.points().push_back(ahead(place.map_from_base, length_m));
+    lines.points().push_back(at(place.map_from_base, {length_m, 0.0, 0.0}));
   }
   return lines;
 }
@@ -129,7 +130,9 @@ PlaceScene::Marker PlaceScene::id(std::uint32_t number, const Place& place) cons
   Marker text = marker("ids", kinds::TEXT_VIEW_FACING, kTextHeight * parameters_.size_m);
   text.id(static_cast<std::int32_t>(number));
   text.pose(place.map_from_base);
-  text.pose().position().z(place.map_from_base.position().z() + kTextAbove * parameters_.size_m);
+  // Above the place, it would be in front of the sphere when seen from above; ahead, on the path.
+  text.pose().position(at(place.map_from_base, {0.0, kTextBeside * parameters_.size_m, 0.0}));
+  text.color(colour(kTextGrey));
   text.text(std::to_string(number));
   return text;
 }

@@ -149,6 +149,17 @@ TEST_F(MarkersComponent, ShowsPlacesWhereTheyAreNow) {
   EXPECT_EQ(marker("ids").text(), "7");
 }
 
+TEST_F(MarkersComponent, PutsNumbersBesidePlaces) {
+  player_->landmark(0.0, 7, pose_at(1.0, 2.0, M_PI / 2.0));
+  player_->pause_until(2.0);
+  play();
+  const Marker& number = marker("ids");
+  const double sphere_radius_m = marker("places").scale().x() / 2.0;
+  EXPECT_LT(number.pose().position().x(), 1.0 - sphere_radius_m - number.scale().z() / 2.0)
+      << "readable from above: to the left, off the sphere";
+  EXPECT_NEAR(number.pose().position().y(), 2.0, 1e-9) << "off the path, too";
+}
+
 TEST_F(MarkersComponent, ShowsFromWhereAPlaceWasSeen) {
   player_->landmark(0.0, 1, pose_at(0.0, 0.0, 0.0));
   player_->outcome(0.1, 1, outcomes::APPLIED, pose_at(9.0, 9.0, 0.0));
