@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The layout for Foxglove and Lichtblick: it shows topics and members that exist, at times that fit a recording."""
+"""The layouts for Foxglove, Lichtblick and RViz: they show topics and members that exist, where one can see them."""
 import json
 import pathlib
 import re
@@ -7,6 +7,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAYOUT = ROOT / "config/views/panvo.foxglove.json"
+RVIZ_LAYOUT = ROOT / "config/views/panvo.rviz"
 TOPIC = re.compile(r'Topic<(\w+)::msg::(\w+)>\s+k\w+\{\s*"/?([^"]+)"')
 
 
@@ -56,6 +57,48 @@ class FoxgloveLayout(unittest.TestCase):
             return [node] if isinstance(node, str) else [*leaves(node["first"]), *leaves(node["second"])]
         layout = json.loads(LAYOUT.read_text(encoding="utf-8"))["layout"]
         self.assertEqual(sorted(leaves(layout)), sorted(self.panels))
+
+
+class RVizLayout(unittest.TestCase):
+    TYPES = {"Path": "nav_msgs/msg/Path", "Odometry": "nav_msgs/msg/Odometry", "Image": "sensor_msgs/msg/Image",
+             "PointCloud2": "sensor_msgs/msg/PointCloud2", "MarkerArray": "visualization_msgs/msg/MarkerArray"}
+
+    def setUp(self):
+        self.text = RVIZ_LAYOUT.read_text(encoding="utf-8")
+
+    def value(self, key):
+        found = re.search(rf"^\s*{re.escape(key)}: (.*)$", self.text, re.MULTILINE)
+        self.assertIsNotNone(found, key)
+        return found[1]
+
+    def test_displays_read_topics_of_their_types(self):
+        shown = re.findall(r"- Class: rviz_default_plugins/(\w+)\n(?: {6}.*\n)*? {6}Topic: \{Value: (\S+),", self.text)
+        self.assertGreater(len(shown), 5)
+        topics = {**known_topics(), "/places/markers": "visualization_msgs/msg/MarkerArray"}
+        for kind, topic in shown:
+            self.assertEqual(topics.get(topic), self.TYPES[kind], topic)
+
+    def test_panels_leave_room_for_the_map(self):
+        # Without the places of the panels, RViz stacks them until nothing is left of the map and of the images; without
+        # the two switches, it hides them or not as memory happens to be.
+        self.assertGreaterEqual(int(self.value("Width")), 1200)
+        self.assertEqual((self.value("Hide Left Dock"), self.value("Hide Right Dock")), ("false", "false"))
+        digits = re.search(r'QMainWindow State: "([^"]*)"', self.text)[1]
+        state = bytes.fromhex(re.sub(r"[\\\s]", "", digits))
+        panels = re.findall(r"Class: rviz_common/\w+, Name: (\w+)", self.text)
+        images = re.findall(r"- Class: rviz_default_plugins/Image\n +Name: (.*)", self.text)
+        self.assertGreater(len(panels) + len(images), 3)
+        for name in panels + images:
+            self.assertIn(name.encode("utf-16-be"), state, name)  # as Qt stores it
+
+    def test_points_have_the_colour_of_their_state(self):
+        # In RViz's inverted rainbow, blue lies at 20 %, green at 60 %, red at 100 %.
+        lowest, highest = float(self.value("Min Intensity")), float(self.value("Max Intensity"))
+        self.assertEqual(self.value("Invert Rainbow"), "true")
+        new, follows, contradicts = ((state - lowest) / (highest - lowest) for state in (0, 1, 2))
+        self.assertAlmostEqual(new, 0.2)
+        self.assertAlmostEqual(follows, 0.6)
+        self.assertAlmostEqual(contradicts, 1.0)
 
 
 if __name__ == "__main__":
