@@ -49,10 +49,14 @@ Estimate estimate_of(const Lines& lines, const Line& line) {
   return {line.unit * values[0], line.unit * values[1]};
 }
 
+const Line* line_of(const std::string& key) {
+  return std::ranges::find_if(kLines, [&key](const Line& one) { return key == one.key; });
+}
+
 SelfCalibration calibration_of(const Lines& lines) {
   SelfCalibration calibration;
   for (const auto& [key, values] : lines) {
-    const auto* const line = std::ranges::find_if(kLines, [&key = key](const Line& one) { return key == one.key; });
+    const auto* const line = line_of(key);
     if (line == kLines.end()) throw std::runtime_error(fmt::format("'{}' is unknown", key));
     calibration.*line->quantity = estimate_of(lines, *line);
   }
@@ -80,6 +84,10 @@ std::optional<SelfCalibration> read_self_calibration(const std::filesystem::path
         fmt::format("{} contains no valid calibration: {}; delete the file, a new one will be written", file.string(),
                     error.what()));
   }
+}
+
+bool looks_like_self_calibration(const std::filesystem::path& file) {
+  return std::ranges::any_of(read_lines(file), [](const auto& line) { return line_of(line.first) != kLines.end(); });
 }
 
 std::string to_text(const SelfCalibration& calibration) {

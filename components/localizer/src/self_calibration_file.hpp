@@ -12,6 +12,8 @@ namespace panvo::localizer {
 /// As write_last_pose() and read_last_pose(). A line for each quantity: its name with the unit, value, standard deviation.
 void write_self_calibration(const std::filesystem::path& file, const SelfCalibration& calibration);
 std::optional<SelfCalibration> read_self_calibration(const std::filesystem::path& file);
+/// Whether a file that is not valid is one all the same: damaged, or of another version. No other file is to be replaced.
+bool looks_like_self_calibration(const std::filesystem::path& file);
 
 /// The quantities in a sentence, for the log; empty if there is none.
 std::string to_text(const SelfCalibration& calibration);

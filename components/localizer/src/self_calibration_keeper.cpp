@@ -52,10 +52,12 @@ void SelfCalibrationKeeper::read() {
     if (!text.empty()) context_.log().info("{}: until measured again, {}", file_.string(), text);
   } catch (const std::runtime_error& error) {
     context_.log().warn("{}", error.what());
+    is_to_keep_ = looks_like_self_calibration(file_);  // else it was named by mistake
   }
 }
 
 void SelfCalibrationKeeper::write() {
+  if (!is_to_keep_) return;
   const SelfCalibration measured = localizer_.self_calibration();
   SelfCalibration now = saved_;
   bool is_notable = take(now.panorama_ahead_s, measured.panorama_ahead_s);

@@ -27,6 +27,7 @@ class SelfCalibrationKeeper {
   runtime::Context& context_;
   const std::filesystem::path file_;
   Localizer& localizer_;
+  bool is_to_keep_ = true;
   SelfCalibration saved_;
   std::optional<std::int64_t> kept_ns_;
 };

@@ -169,6 +169,18 @@ TEST_F(LocalizerWithSelfCalibration, GoesOnWithoutAFileThatIsNone) {
   EXPECT_NEAR(read_self_calibration(file_)->panorama_ahead_s->value, 0.0, 0.01) << "a new one";
 }
 
+TEST_F(LocalizerWithSelfCalibration, ReplacesNoFileOfAnotherKind) {
+  const std::string text = "image_width: 640\nimage_height: 480\n";
+  std::ofstream(file_) << text;
+  begin();
+  EXPECT_TRUE(harness_.log_contains("contains no valid calibration: 'image_height:' is unknown; delete the file"));
+  wind(0, 600, 0);
+  EXPECT_FALSE(references_.empty()) << "there is something to keep";
+  std::ostringstream left;
+  left << std::ifstream(file_).rdbuf();
+  EXPECT_EQ(left.str(), text);
+}
+
 TEST_F(LocalizerWithSelfCalibration, WritesTheRestAtTheEndOfTheRun) {
   begin();
   for (int frame = 0; references_.empty() && frame < 500; frame += 5) wind(frame, frame + 5, 0);
