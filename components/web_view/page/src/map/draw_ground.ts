@@ -51,6 +51,21 @@ export function drawScaleBar(context: CanvasRenderingContext2D, view: View, colo
   haloText(context, lengthText(metres), x + width / 2, y - 6, colours, "center");
 }
 
+/** Where a tool acts that is used by keys. */
+export function drawMiddle(context: CanvasRenderingContext2D, view: View, colours: Colours): void {
+  const [x, y] = [Math.round(view.width / 2) + 0.5, Math.round(view.height / 2) + 0.5];
+  for (const [line, colour] of [[4, colours.card], [1.5, colours.ink]] as const) {
+    context.lineWidth = line;
+    context.strokeStyle = colour;
+    context.beginPath();
+    context.moveTo(x - 12, y);
+    context.lineTo(x + 12, y);
+    context.moveTo(x, y - 12);
+    context.lineTo(x, y + 12);
+    context.stroke();
+  }
+}
+
 /** Text that can be read on any ground. */
 export function haloText(context: CanvasRenderingContext2D, text: string, x: number, y: number, colours: Colours, align: CanvasTextAlign, colour = colours.ink): void {
   context.font = "500 12px system-ui, 'DejaVu Sans', sans-serif";

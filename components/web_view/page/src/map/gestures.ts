@@ -9,6 +9,8 @@ export interface Gestures {
   move(dx: number, dy: number): void;
   zoom(factor: number, x?: number, y?: number): void;
   hover(x: number, y: number): void;
+  /** To the left (1) or right (-1). */
+  turn(by: 1 | -1): void;
 }
 
 const tap_px = 6; // a press that moves less is a tap
@@ -80,6 +82,9 @@ export function listen(canvas: HTMLCanvasElement, gestures: Gestures): void {
     if (step) gestures.move(...step);
     else if (event.key === "+" || event.key === "=") gestures.zoom(1.4);
     else if (event.key === "-") gestures.zoom(1 / 1.4);
+    else if (event.key === "Enter") gestures.tap(canvas.clientWidth / 2, canvas.clientHeight / 2);
+    else if (event.key === "[") gestures.turn(1);
+    else if (event.key === "]") gestures.turn(-1);
     else return;
     event.preventDefault();
   });

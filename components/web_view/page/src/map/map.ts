@@ -4,7 +4,7 @@ import type { Drive } from "../model/drive.ts";
 import { nowhere, widen } from "../model/path.ts";
 import type { Place } from "../model/places.ts";
 import { onSchemeChange, readColours } from "../ui/colours.ts";
-import { drawGrid, drawScaleBar } from "./draw_ground.ts";
+import { drawGrid, drawMiddle, drawScaleBar } from "./draw_ground.ts";
 import { drawRings } from "./draw_places.ts";
 import { drawFresh } from "./draw_sightings.ts";
 import { drawArrow, drawUncertainty } from "./draw_vehicle.ts";
@@ -60,6 +60,10 @@ export class MapView {
         this.view.zoom(factor, ...(this.follows ? [] : [x, y]));
         this.draw();
       },
+      turn: (by) => {
+        this.tool?.turn(by);
+        this.draw();
+      },
       hover: (x, y) => (canvas.style.cursor = this.tool ? "crosshair" : this.#placeAt(x, y) ? "pointer" : ""),
     });
   }
@@ -113,6 +117,7 @@ export class MapView {
 
   setTool(tool: Tool | undefined): void {
     this.tool = tool;
+    if (tool) this.canvas.focus(); // so that keys reach it
     this.chosen = undefined;
     this.onChange();
     this.draw();
@@ -167,6 +172,7 @@ export class MapView {
     if (pose) drawArrow(context, view, pose, drive.enhanced.count === 0 ? colours.binocular : colours.enhanced, colours.card);
     this.#drawCursor();
     this.tool?.draw(context, view, colours);
+    if (this.tool && this.canvas.matches(":focus-visible")) drawMiddle(context, view, colours);
     drawScaleBar(context, view, colours);
   }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What a press on the map does: nothing special, measure lengths, or give the vehicle its pose. */
-import { distance, type Pose2 } from "../model/geometry.ts";
+import { distance, wrapped, type Pose2 } from "../model/geometry.ts";
 import { metres } from "../model/state_line.ts";
 import type { Colours } from "../ui/colours.ts";
 import { haloText } from "./draw_ground.ts";
 import { drawArrow } from "./draw_vehicle.ts";
 import type { View } from "./view.ts";
+
+const turn_rad = (5 * Math.PI) / 180; // of one key
 
 export interface Point {
   x: number;
@@ -19,6 +21,7 @@ export interface Tool {
   tap(at: Point): void;
   drag(from: Point, to: Point): void;
   drop(): void;
+  turn(by: 1 | -1): void;
   draw(context: CanvasRenderingContext2D, view: View, colours: Colours): void;
 }
 
@@ -43,6 +46,7 @@ export class MeasureTool implements Tool {
 
   drag(): void {}
   drop(): void {}
+  turn(): void {}
 
   draw(context: CanvasRenderingContext2D, view: View, colours: Colours): void {
     const pixels = this.points.map(({ x, y }) => view.toScreen(x, y));
@@ -69,14 +73,18 @@ export class PlaceTool implements Tool {
   readonly takesDrags = true;
   pose: Pose2 | undefined;
 
-  constructor(readonly onProposed: (pose: Pose2) => void) {}
+  /** `yaw`: where it heads unless drawn otherwise. */
+  constructor(
+    readonly yaw: number,
+    readonly onProposed: (pose: Pose2) => void,
+  ) {}
 
   get hint(): string {
     return this.pose ? "" : "Press where the vehicle is and draw towards where it heads";
   }
 
   tap(at: Point): void {
-    this.pose = { ...at, yaw: this.pose?.yaw ?? 0 };
+    this.pose = { ...at, yaw: this.pose?.yaw ?? this.yaw };
     this.onProposed(this.pose);
   }
 
@@ -86,6 +94,10 @@ export class PlaceTool implements Tool {
 
   drop(): void {
     if (this.pose) this.onProposed(this.pose);
+  }
+
+  turn(by: 1 | -1): void {
+    if (this.pose) this.onProposed((this.pose = { ...this.pose, yaw: wrapped(this.pose.yaw + by * turn_rad) }));
   }
 
   draw(context: CanvasRenderingContext2D, view: View, colours: Colours): void {

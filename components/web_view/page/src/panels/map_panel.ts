@@ -81,7 +81,7 @@ export class MapPanel {
     this.map.setTool(
       this.map.tool instanceof PlaceTool
         ? undefined
-        : new PlaceTool((pose) => {
+        : new PlaceTool(this.drive.pose?.yaw ?? 0, (pose) => {
             this.#proposed = pose;
             this.#onChange();
           }),

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import test, { after, before } from "node:test";
 import type { Browser, Page } from "puppeteer-core";
 import type { App } from "../../src/app.ts";
+import { metres } from "../../src/model/state_line.ts";
 import { header, pointCloud } from "../modules/make.ts";
 import { launched } from "./browser.ts";
 import { image, messages, topics } from "./drive_messages.ts";
@@ -119,5 +120,23 @@ test("the time line fits a phone, and a finger moves its cursor", async () => {
   await touch.move(box.x + 0.75 * box.width, y);
   await page.waitForFunction(() => Math.abs((panvo.map.cursor_s! - panvo.drive.begin) / (panvo.drive.now - panvo.drive.begin) - 0.75) < 0.01, { polling: 50, timeout: 20_000 });
   await touch.end();
+  await page.close();
+});
+
+test("lengths are measured and the vehicle is placed by keys", async () => {
+  const page = await opened(1280, 800, 1);
+  const { [0]: first } = [...messages()].filter(([topic]) => topic === "/odometry/enhanced");
+  await publishedUntil(page, () => publisher.publish(...first!), () => panvo.drive.enhanced.count > 0);
+  await page.keyboard.press("m");
+  await page.keyboard.press("Enter");
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("ArrowRight"); // by 60 px each
+  await page.keyboard.press("Enter");
+  const px_per_m = await page.evaluate(() => panvo.map.view.px_per_m);
+  assert.equal(await page.$eval("#hint", (element) => element.textContent), `${metres(180 / px_per_m)} in all`);
+  await page.keyboard.press("p");
+  await page.keyboard.press("Enter");
+  for (const key of ["[", "[", "[", "]"] as const) await page.keyboard.press(key);
+  const { x, y } = await page.evaluate(() => panvo.map.view);
+  assert.equal(await page.$eval("#confirm-text", (element) => element.textContent), `Place the vehicle at x ${x.toFixed(1)} m, y ${y.toFixed(1)} m, heading 10°?`);
   await page.close();
 });
