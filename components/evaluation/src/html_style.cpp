@@ -96,7 +96,13 @@ code { font: .9em ui-monospace, "DejaVu Sans Mono", monospace; }
   .wide { overflow: visible; } table { font-size: 7.5pt; } th { font-size: 7pt; } th, td { padding: .2rem .3rem; }
 }
 @media (max-width: 860px) { .tiles { grid-template-columns: 1fr 1fr; } }
-@media (max-width: 640px) { figure { overflow-x: auto; } figure svg { min-width: 760px; } .bars { grid-template-columns: 1fr 1fr; } .bars .b { grid-column: 1 / -1; grid-row: auto; } }
+@media (max-width: 640px) {
+  figure { overflow-x: auto; } figure svg { min-width: 760px; } figure svg .tick, figure svg .small { font-size: 16px; }
+  /* The plan is seen as a whole: the rest of it does not shrink with it. */
+  .plan svg { min-width: 0; } figure.plan svg .tick, figure.plan svg .small { font-size: 38px; } .plan circle { r: 12px; }
+  .plan :is(.curve, .jump, .mark, circle) { vector-effect: non-scaling-stroke; } .plan .curve.truth { stroke-width: 5; }
+}
+@media (max-width: 640px) { .bars { grid-template-columns: 1fr 1fr; } .bars .b { grid-column: 1 / -1; grid-row: auto; } }
 )";
 }
 

@@ -82,6 +82,22 @@ TEST_F(JourneyPage, CountsListedRevisitsAndOtherPlacesApart) {
   EXPECT_EQ(elsewhere_words(score), "; 2 recognised at places that the recording does not list");
 }
 
+TEST_F(JourneyPage, CanBeReadOnAPhone) {
+  auto text = page();
+  const std::string start = "@media (max-width: 640px) {";
+  text.erase(0, text.find(start));
+  const auto number_after = [&](const std::string& rule) {
+    const auto at = text.find(rule);
+    return at == std::string::npos ? 0.0 : std::stod(text.substr(at + rule.size()));
+  };
+  constexpr double kChart_px = 1060.0, kPhone_px = 316.0,
+                   kReadable_px = 11.0;  // widths: of the viewBox, and of a figure's inside
+  EXPECT_GE(number_after("figure svg .small { font-size: ") * number_after("figure svg { min-width: ") / kChart_px,
+            kReadable_px);
+  EXPECT_EQ(number_after(".plan svg { min-width: "), 0.0);
+  EXPECT_GE(number_after("figure.plan svg .small { font-size: ") * kPhone_px / kChart_px, kReadable_px);
+}
+
 TEST_F(JourneyPage, IsTheSameEveryTime) { EXPECT_EQ(page(), page()); }
 
 TEST_F(JourneyPage, SaysWhatItWasGivenAndNoMarkup) {
