@@ -140,3 +140,12 @@ test("lengths are measured and the vehicle is placed by keys", async () => {
   assert.equal(await page.$eval("#confirm-text", (element) => element.textContent), `Place the vehicle at x ${x.toFixed(1)} m, y ${y.toFixed(1)} m, heading 10°?`);
   await page.close();
 });
+
+test("a phone shows the meanings from their beginning", async () => {
+  const page = await opened(390, 844, 1);
+  await page.click('.tabs button[data-tab="system"]');
+  await page.click("#help-more");
+  const scrolled = await page.$eval("#help", (dialog) => [(dialog as HTMLDialogElement).open, dialog.scrollHeight > dialog.clientHeight, dialog.scrollTop]);
+  assert.deepEqual(scrolled, [true, true, 0]);
+  await page.close();
+});
