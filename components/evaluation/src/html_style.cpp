@@ -7,13 +7,13 @@ namespace panvo::evaluation {
 std::string page_style() {
   return R"(:root {
   color-scheme: light dark;
-  --page: #fbfaf7; --card: #ffffff; --ink: #1d2125; --soft: #646b73; --line: #dedbd4; --truth: #c4c1ba;
+  --page: #fbfaf7; --card: #ffffff; --ink: #1d2125; --soft: #646b73; --line: #dedbd4; --truth: #959188;
   --binocular: #d55e00; --enhanced: #0072b2; --compass: #009e73; --landmark: #e69f00; --good: #00805d; --bad: #c0262d;
   --correction: #009e73; --sigma: #0072b21f;
 }
 @media (prefers-color-scheme: dark) {
   :root {
-    --page: #14171a; --card: #1b1f23; --ink: #e9e7e2; --soft: #9aa2aa; --line: #32383e; --truth: #555c63;
+    --page: #14171a; --card: #1b1f23; --ink: #e9e7e2; --soft: #9aa2aa; --line: #32383e; --truth: #6b737b;
     --binocular: #ff9148; --enhanced: #58b6f2; --compass: #35c99b; --landmark: #f2b933; --good: #48d3a4; --bad: #ff7a7a;
     --correction: #35c99b; --sigma: #58b6f22b;
   }
