@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parameter_file.hpp"
 
-#include <utility>
-
 namespace panvo::runtime {
 namespace {
 
 constexpr const char* kParameters = "ros__parameters";
-// YAML aliases can make a map contain itself, and a few lines of them stand for billions of parameters.
-constexpr int kDeepest = 16;
-constexpr std::size_t kMostEntries = 10'000;
+constexpr int kDeepest = 16;  // YAML aliases can make a map contain itself
 
 std::pair<std::string_view, std::string_view> split_word(std::string_view path) {
   const auto slash = path.find('/');
@@ -55,7 +51,6 @@ class ParameterFile {
       return;
     }
     for (const auto& pair : map) {
-      if (is_full(pair.first)) return;
       const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "";
       if (key != kParameters) {
         read_sections(pair.second, name.empty() ? key : std::string(name).append(1, '/').append(key), depth + 1);
@@ -78,7 +73,6 @@ class ParameterFile {
     }
     std::vector<std::string> names;
     for (const auto& pair : map) {
-      if (is_full(pair.first)) return;
       const std::string name = prefix + (pair.first.IsScalar() ? pair.first.Scalar() : "");
       if (std::find(names.begin(), names.end(), name) != names.end()) {
         problem(pair.first, "parameter " + name + " is given twice in one section; keep one");
@@ -94,19 +88,6 @@ class ParameterFile {
     }
   }
 
-  /// Counts an entry. Whether it is one too many, which is reported once.
-  bool is_full(const YAML::Node& entry) {
-    if (entries_ < kMostEntries) {
-      ++entries_;
-      return false;
-    }
-    if (!std::exchange(is_full_, true)) {
-      problem(entry,
-              "has more than " + std::to_string(kMostEntries) + " entries here; do its aliases repeat too much?");
-    }
-    return true;
-  }
-
   void problem(const YAML::Node& node, const std::string& what) {
     findings_.problems.add(location_of(file_, node), what);
   }
@@ -115,8 +96,6 @@ class ParameterFile {
   const std::string& node_;
   const Scope* scope_;
   Findings& findings_;
-  std::size_t entries_ = 0;
-  bool is_full_ = false;
   bool any_section_ = false;
   bool any_for_node_ = false;
   bool is_for_several_ = false;  // the section that is being read

@@ -10,6 +10,21 @@
 #include "suggestion.hpp"
 
 namespace panvo::runtime {
+namespace {
+
+/// Counts nodes with aliases written out: these can make a list contain itself, and a few lines of them stand for
+/// billions. Returns whether there are at most `left`, nested at most `deepest` deep.
+bool stays_within(const YAML::Node& node, int deepest, std::size_t& left) {
+  if (deepest == 0 || left == 0) return false;
+  --left;
+  const auto item_stays_within = [&](const YAML::Node& item) { return stays_within(item, deepest - 1, left); };
+  if (node.IsSequence()) return std::all_of(node.begin(), node.end(), item_stays_within);
+  return !node.IsMap() || std::all_of(node.begin(), node.end(), [&](const auto& pair) {
+    return item_stays_within(pair.first) && item_stays_within(pair.second);
+  });
+}
+
+}  // namespace
 
 std::optional<YAML::Node> load_yaml(const std::filesystem::path& file, const Location& named_at, Findings& findings) {
   const auto unreadable = [&](const std::string& why) {
@@ -32,8 +47,15 @@ std::optional<YAML::Node> load_yaml(const std::filesystem::path& file, const Loc
     }
     return unreadable("cannot be read: " + std::string(std::strerror(errno)));
   }
+  constexpr int kDeepest = 100;
+  constexpr std::size_t kRepeated = 100'000;  // a file without aliases has no more nodes than characters
   try {
-    return YAML::Load(content.str());
+    const YAML::Node root = YAML::Load(content.str());
+    std::size_t left = content.str().size() + kRepeated;
+    if (stays_within(root, kDeepest, left)) return root;
+    findings.problems.add({file.string(), 0},
+                          "is nested too deep, or its aliases (*name) repeat too much; remove some");
+    return std::nullopt;
   } catch (const YAML::Exception& exception) {
     const int line = exception.mark.is_null() ? 0 : exception.mark.line + 1;
     findings.problems.add({file.string(), line}, "is not YAML: " + exception.msg +

@@ -205,13 +205,27 @@ TEST_F(SystemFile, NamesWhatIsWrongInAParameterFile) {
       ElementsAre("p.yaml:4: parameter a is given twice in one section; keep one",
                   "p.yaml:5: parameter b has no value; write \"\" for an empty text",
                   "p.yaml:6: parameter c must be one value or a list of values, not lists or maps within a list"));
-  folder_.write("p.yaml", "/**: &again\n  ros__parameters:\n    a: 1\n  deeper: *again\n");
-  EXPECT_THAT(problems(from), testing::Not(IsEmpty())) << "a map that contains itself";
-  const auto is_too_many = testing::Contains(HasSubstr("p.yaml:1: has more than 10000 entries here"));
-  folder_.write("p.yaml", "/**: &again {a: *again, b: *again, c: *again}\n");
-  EXPECT_THAT(problems(from), is_too_many);
-  folder_.write("p.yaml", "/**: {ros__parameters: &again {a: *again, b: *again, c: *again}}\n");
-  EXPECT_THAT(problems(from), is_too_many);
+}
+
+TEST_F(SystemFile, BearsAliasesThatRepeatTooMuch) {
+  const auto from = with("       param: [{from: p.yaml}]");
+  for (const char* endless :
+       {"/**: &again {deeper: *again}\n", "/**: {ros__parameters: &again {a: *again, b: *again, c: *again}}\n"}) {
+    folder_.write("p.yaml", endless);
+    EXPECT_THAT(problems(from), ElementsAre(HasSubstr("p.yaml: is nested too deep, or its aliases"))) << endless;
+  }
+  for (const std::string& endless : {std::string("launch:\n- group: &again\n  - group: *again\n"),
+                                     with("       param: &again [{name: a, param: *again}]")}) {
+    EXPECT_THAT(problems(endless), ElementsAre(HasSubstr("stereo.yaml: is nested too deep, or its aliases")))
+        << endless;
+  }
+  std::string twice = "a0: &a0 {ros__parameters: {x: 1}}\n";  // each map is twice the one before
+  for (int i = 1; i < 64; ++i) {
+    const auto name = std::to_string(i), before = "*a" + std::to_string(i - 1);
+    twice += "a" + name + ": &a" + name + " {a: " + before + ", b: " + before + "}\n";
+  }
+  folder_.write("p.yaml", twice);
+  EXPECT_THAT(problems(from), ElementsAre(HasSubstr("p.yaml: is nested too deep, or its aliases")));
 }
 
 TEST_F(SystemFile, NotesAParameterFileThatSaysNothingToItsComponent) {
