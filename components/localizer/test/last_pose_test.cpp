@@ -137,16 +137,19 @@ TEST_F(LastPoseFile, OfNumbersThatAreNoPoseIsNotBelieved) {
   EXPECT_THAT(second.log(), Contains(HasSubstr("orientation is not a unit quaternion")));
 }
 
-TEST_F(LastPoseFile, OfACovarianceOrAPlaceThatIsNoneIsNotBelieved) {
-  const auto file_of = [this](const std::string& x, const std::string& correlation) {
-    std::ofstream(file_) << "map_frame map\nstamp_ns 1700000002000000000\nspeed_m_per_s 5\nposition " << x
+TEST_F(LastPoseFile, OfAStampACovarianceOrAPlaceThatIsNoneIsNotBelieved) {
+  const auto file_of = [this](const std::string& stamp, const std::string& x, const std::string& correlation) {
+    std::ofstream(file_) << "map_frame map\nstamp_ns " << stamp << "\nspeed_m_per_s 5\nposition " << x
                          << " 0 0\norientation 0 0 0 1\ncovariance 1 " << correlation << " 0 0 0 0 " << correlation
                          << " 1 0 0 0 0 0 0 1 0 0 0 0 0 0 1 0 0 0 0 0 0 1 0 0 0 0 0 0 1\n";
   };
   live_once();
-  for (const auto& [x, correlation, problem] : {std::tuple{"10", "2", "covariance is not positive semidefinite"},
-                                                std::tuple{"1e200", "0", "position is beyond +-1e+08"}}) {
-    file_of(x, correlation);
+  const char* const sound = "1700000002000000000";
+  for (const auto& [stamp, x, correlation, problem] :
+       {std::tuple{sound, "10", "2", "covariance is not positive semidefinite"},
+        std::tuple{sound, "1e200", "0", "position is beyond +-1e+08"},
+        std::tuple{"-9223372036854775808", "10", "0", "stamp_ns is out of the range of stamps"}}) {
+    file_of(stamp, x, correlation);
     Life second(kept_);
     second.drive(kBegin_ns + 4 * kSecond_ns, 6);
     EXPECT_NEAR(second.x(), 1.0, 1e-6);
