@@ -33,6 +33,19 @@ TEST(FoundDevice, IsListedBySerialForPeople) {
   EXPECT_EQ(to_text({}), "");
 }
 
+TEST(FoundDevice, DoesNotSteerTheTerminal) {
+  auto forged = kTwo;
+  forged.resize(1);
+  forged[0].serial = "\x1b[2J1";
+  forged[0].model = "Cam\n0816  Maker";
+  forged[0].formats = {"Mono8\x07", "\xff"};
+  forged[0].problem = "cannot be opened: \x1b]0;title";
+  const auto text = to_text(forged);
+  EXPECT_THAT(text, StartsWith("\\x1b[2J1  Maker Cam 0816  Maker  ("));
+  EXPECT_THAT(text, HasSubstr("formats: Mono8\\x07, \\xff\n"));
+  EXPECT_THAT(text, HasSubstr("cannot be opened: \\x1b]0;title\n"));
+}
+
 TEST(FoundDevice, IsAnObjectForScripts) {
   EXPECT_THAT(to_json(kTwo), AllOf(HasSubstr(R"("serial": "0815")"), HasSubstr(R"("model": "Cam \"1\"")"),
                                    HasSubstr(R"("BayerRG8")")));
