@@ -28,7 +28,8 @@ std::vector<std::string> TopicFilter::unmatched(const std::vector<std::string>& 
 }
 
 bool TopicFilter::Pattern::matches(const std::string& topic) const {
-  return text == topic || "/" + text == topic || std::regex_match(topic, regex);
+  constexpr std::size_t kLongest = 1000;  // ROS has 255; std::regex needs stack for each letter
+  return text == topic || "/" + text == topic || (topic.size() <= kLongest && std::regex_match(topic, regex));
 }
 
 std::vector<TopicFilter::Pattern> TopicFilter::compile(const std::vector<std::string>& patterns) {

@@ -35,6 +35,12 @@ TEST(TopicFilter, ExcludesWhatItIncludes) {
   EXPECT_FALSE(filter.accepts("/stereo/left/image_raw"));
 }
 
+TEST(TopicFilter, BearsNamesThatAreLongerThanThatOfAnyTopic) {
+  const TopicFilter filter({"/stereo/.*"});
+  EXPECT_TRUE(filter.accepts("/stereo/" + std::string(247, 'a')));
+  EXPECT_FALSE(filter.accepts("/stereo/" + std::string(1'000'000, 'a')));
+}
+
 TEST(TopicFilter, NamesThePatternThatIsNone) {
   try {
     TopicFilter filter({"/stereo/["});

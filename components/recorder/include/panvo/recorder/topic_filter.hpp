@@ -9,7 +9,7 @@ namespace panvo::recorder {
 
 /// Selects topics to record, play or compare. A pattern is a topic name ("/tf" or "tf") or an ECMAScript regular
 /// expression for the whole name ("/stereo/.*"). A string may hold several patterns separated by spaces, as in a launch
-/// argument. Exclusion takes precedence.
+/// argument. Exclusion takes precedence. A name longer than that of any topic matches no expression.
 class TopicFilter {
  public:
   /// Accepts everything.
