@@ -9,6 +9,8 @@ namespace {
 constexpr std::string_view kTopicPrefix = "rt/";
 
 std::optional<std::string> rewrite(std::string_view name, const std::regex& form, const char* format) {
+  constexpr std::size_t kLongest = 1000;  // DDS has 255; std::regex needs stack for each letter
+  if (name.size() > kLongest) return std::nullopt;
   const std::string text(name);
   std::smatch match;
   if (!std::regex_match(text, match, form)) return std::nullopt;

@@ -31,6 +31,9 @@ TEST(WireServiceName, IsRos2sAndBack) {
 TEST(WireTypeName, IsRos2sAndBack) {
   EXPECT_EQ(wire_type_name("nav_msgs/msg/Odometry"), "nav_msgs::msg::dds_::Odometry_");
   EXPECT_EQ(type_name_from_wire("nav_msgs::msg::dds_::Odometry_"), "nav_msgs/msg/Odometry");
+  const std::string long_name(1'000'000, 'a');  // from a bag or from another process
+  EXPECT_EQ(wire_type_name(long_name + "/msg/Odometry"), std::nullopt);
+  EXPECT_EQ(type_name_from_wire(long_name + "::msg::dds_::Odometry_"), std::nullopt);
 }
 
 TEST(WireTypeName, OfAnotherFormIsNoTypeName) {
