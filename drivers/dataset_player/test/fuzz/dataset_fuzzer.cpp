@@ -13,13 +13,14 @@ namespace {
 
 using namespace panvo::dataset_player;
 
-constexpr std::array<std::array<const char*, 2>, 7> kPairs{{{"calib.txt", "poses.txt"},
+constexpr std::array<std::array<const char*, 2>, 8> kPairs{{{"calib.txt", "poses.txt"},
                                                             {"times.txt", "poses.txt"},
                                                             {"mav0/cam0/data.csv", "mav0/cam1/data.csv"},
                                                             {"mav0/cam0/sensor.yaml", "mav0/cam1/sensor.yaml"},
                                                             {"mav0/cam2/data.csv", "mav0/cam2/sensor.yaml"},
                                                             {"mav0/imu0/data.csv", "mav0/imu0/sensor.yaml"},
-                                                            {"mav0/vicon0/data.csv", "mav0/vicon0/sensor.yaml"}}};
+                                                            {"mav0/vicon0/data.csv", "mav0/vicon0/sensor.yaml"},
+                                                            {"left.yaml", "right.yaml"}}};
 
 /// A data set for each pair, in shared memory, to avoid disk writes.
 struct Datasets {
@@ -31,23 +32,22 @@ struct Datasets {
         folder.write(std::to_string(kind) + "/" + name, text);
       };
       const std::string image = "P5 2 2 255\n    ";
-      const bool is_kitti = kind < 2;
-      for (const std::string eye : {"0", "1"}) {
-        if (is_kitti) {
-          write("image_" + eye + "/0.pgm", image);
-          write("image_" + eye + "/1.pgm", image);
-          continue;
-        }
-        write("mav0/cam" + eye + "/data/1.pgm", image);
-        write("mav0/cam" + eye + "/data.csv", "1,1.pgm\n2000000000,1.pgm\n");
-        write("mav0/cam" + eye + "/sensor.yaml",
-              "T_BS: [0, 0, 1, 0, -1, 0, 0, -" + eye + ", 0, -1, 0, 0, 0, 0, 0, 1]\n" +
-                  "resolution: [2, 2]\nintrinsics: [2, 2, 1, 1]\ndistortion_coefficients: [0, 0, 0, 0]\n");
-      }
-      if (is_kitti) {
+      if (kind == 7) {
+        write("left/0.pgm", image);
+        write("right/0.pgm", image);
+      } else if (kind < 2) {
+        for (const char* name : {"image_0/0.pgm", "image_0/1.pgm", "image_1/0.pgm", "image_1/1.pgm"})
+          write(name, image);
         write("calib.txt", "P0: 2 0 1 0 0 2 1 0 0 0 1 0\nP1: 2 0 1 -1 0 2 1 0 0 0 1 0\n");
       } else {
-        write("mav0/cam2/data/1.pgm", image);
+        for (const std::string camera : {"0", "1", "2"}) {
+          write("mav0/cam" + camera + "/data/1.pgm", image);
+          if (camera == "2") continue;
+          write("mav0/cam" + camera + "/data.csv", "1,1.pgm\n2000000000,1.pgm\n");
+          write("mav0/cam" + camera + "/sensor.yaml",
+                "T_BS: [0, 0, 1, 0, -1, 0, 0, -" + camera + ", 0, -1, 0, 0, 0, 0, 0, 1]\n" +
+                    "resolution: [2, 2]\nintrinsics: [2, 2, 1, 1]\ndistortion_coefficients: [0, 0, 0, 0]\n");
+        }
       }
     }
   }
