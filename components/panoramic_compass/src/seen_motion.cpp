@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "panvo/vision/angle.hpp"
 #include "panvo/vision/median.hpp"
 #include "panvo/vision/pose.hpp"
 
@@ -33,7 +34,7 @@ double side_parallax(const std::vector<BearingPair>& pairs, const TurnFit& fit) 
     squared += by_rad * by_rad;
     if (!fit.agrees[i]) continue;
     const double azimuth = std::atan2(far.y(), far.x());
-    const double moved = vision::wrap(std::atan2(pairs[i].now.y(), pairs[i].now.x()) - azimuth, 2.0 * std::numbers::pi);
+    const double moved = vision::wrapped(std::atan2(pairs[i].now.y(), pairs[i].now.x()) - azimuth);
     if (std::abs(std::abs(azimuth) - 0.5 * std::numbers::pi) > kSideSector_rad) continue;
     if (azimuth > 0.0) left.push_back(moved);
     if (azimuth < 0.0) right.push_back(-moved);
