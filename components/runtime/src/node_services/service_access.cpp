@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only place that decides on the rights of service requests.
 #include "node_services/controlled.hpp"
+#include "panvo/interfaces/message_type.hpp"
 
 namespace panvo::runtime::node_services {
 

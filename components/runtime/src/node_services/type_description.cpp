@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node_services/type_description.hpp"
+#include "panvo/interfaces/message_type.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -2,6 +2,7 @@
 // Descriptions of message types, compatible with rclcpp. They let tools read messages of types that they do not know.
 #include "node_services/controlled.hpp"
 #include "node_services/type_description.hpp"
+#include "panvo/interfaces/message_type.hpp"
 #include "type_description_interfaces/srv/GetTypeDescription.h"
 
 namespace panvo::runtime::node_services {
