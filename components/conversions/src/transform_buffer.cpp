@@ -9,6 +9,11 @@
 namespace panvo::conversions {
 namespace {
 
+// Any process can publish transforms: without bounds, those of ever new frames or stamps would fill the memory.
+constexpr std::size_t kMostFrames = 10'000;
+constexpr std::size_t kMostStamps = 20'000;  // of a frame: the history of one that is sent 2,000 times per second
+constexpr std::size_t kLongestChain = 100;
+
 /// Removes the leading slash of older publishers, which tf2 does not use.
 std::string plain(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
 
@@ -48,13 +53,18 @@ std::vector<std::string> TransformBuffer::add(const tf2_msgs::msg::TFMessage& me
       problems.push_back(subject + parent_from_child.reason() + " and is ignored");
       continue;
     }
+    if (by_child_.size() >= kMostFrames && !by_child_.contains(child)) {
+      problems.push_back("transforms of more than " + std::to_string(kMostFrames) + " frames are ignored");
+      continue;
+    }
     Edge& edge = by_child_[child];
     if (is_static || edge.is_static || edge.parent != parent) edge = {parent, is_static};
     const std::int64_t stamp_ns = is_static ? 0 : conversions::stamp_ns(transform);
     // Otherwise the old transforms, with later stamps, would hide the new ones.
     if (!is_static && edge.stamps.add(stamp_ns) == vision::StampOrder::kSetBack) edge.parent_from_child.clear();
     edge.parent_from_child[stamp_ns] = *parent_from_child;
-    while (edge.parent_from_child.begin()->first < edge.parent_from_child.rbegin()->first - kHistory_ns) {
+    while (edge.parent_from_child.begin()->first < edge.parent_from_child.rbegin()->first - kHistory_ns ||
+           edge.parent_from_child.size() > kMostStamps) {
       edge.parent_from_child.erase(edge.parent_from_child.begin());
     }
   }
@@ -84,8 +94,7 @@ std::optional<Eigen::Isometry3d> TransformBuffer::find(const std::string& target
 std::vector<TransformBuffer::Link> TransformBuffer::ancestors(const std::string& frame,
                                                               std::optional<std::int64_t> stamp_ns) const {
   std::vector<Link> links{{frame}};
-  // A chain has at most all edges; this also terminates loops.
-  while (links.size() <= by_child_.size()) {
+  while (links.size() <= kLongestChain) {  // this also terminates loops
     const auto edge = by_child_.find(links.back().frame);
     if (edge == by_child_.end()) break;
     const auto parent_from_child = edge->second.at(stamp_ns);

@@ -71,6 +71,22 @@ TEST(TransformBuffer, SurvivesALoopOfParents) {
   EXPECT_FALSE(transforms.lookup("map", "left"));
 }
 
+TEST(TransformBuffer, BoundsFramesAndChains) {
+  auto transforms = vehicle();
+  std::vector<std::string> problems;
+  for (int i = 0; i < 10'000; ++i) {
+    for (auto& problem : transforms.add_static(message(std::to_string(i), std::to_string(i + 1), transform(1.0, 0.0))))
+      problems.push_back(std::move(problem));
+  }
+  EXPECT_THAT(problems, ElementsAre("transforms of more than 10000 frames are ignored",
+                                    "transforms of more than 10000 frames are ignored",
+                                    "transforms of more than 10000 frames are ignored"));
+  EXPECT_THAT(transforms.add_static(message("base_link", "mast", transform(2.0, 0.0))), IsEmpty());
+  EXPECT_DOUBLE_EQ(transforms.lookup("base_link", "mast")->translation().x(), 2.0);
+  EXPECT_DOUBLE_EQ(transforms.lookup("0", "100")->translation().x(), 100.0);
+  EXPECT_FALSE(transforms.lookup("0", "101"));
+}
+
 TEST(TransformBuffer, NamesWhatItIgnores) {
   TransformBuffer transforms;
   auto zero = message("base_link", "left", transform(1.0, 0.0));
@@ -116,6 +132,14 @@ TEST(TransformBuffer, KnowsNoMovingFrameOutsideItsTimes) {
   transforms.add_moving(moving("odom", "base_link", 11 * kSecond + 1, transform(3.0, 0.0)));
   EXPECT_FALSE(transforms.lookup("odom", "base_link", 1 * kSecond)) << "older than the history";
   EXPECT_TRUE(transforms.lookup("odom", "base_link", 2 * kSecond));
+}
+
+TEST(TransformBuffer, BoundsTheStampsOfAFrame) {
+  TransformBuffer transforms;
+  for (int i = 0; i <= 20'000; ++i) transforms.add_moving(moving("odom", "base_link", i, transform(i, 0.0)));
+  EXPECT_FALSE(transforms.lookup("odom", "base_link", 0));
+  EXPECT_DOUBLE_EQ(transforms.lookup("odom", "base_link", 1)->translation().x(), 1.0);
+  EXPECT_DOUBLE_EQ(transforms.lookup("odom", "base_link", 20'000)->translation().x(), 20'000.0);
 }
 
 TEST(TransformBuffer, ForgetsWhatWasBeforeTheClockWasSetBack) {
