@@ -9,7 +9,8 @@ namespace {
 constexpr std::int64_t kLate_ns = 5'000'000'000;  // largest delay of messages derived from another message
 constexpr std::int64_t kSlower =
     50;  // fraction (1 / kSlower) of a later arrival that is learned: most of the delay is queueing
-constexpr std::int64_t kMeanOver = 8;  // intervals
+constexpr std::int64_t kMeanOver = 8;                 // intervals
+constexpr std::int64_t kLongest_ns = 60'000'000'000;  // interval; a longer one is a silence, or a clock that was set
 
 constexpr std::string_view kAheadOfHost = "a stamp ahead of this host's clock";
 constexpr std::string_view kAhead = "a stamp ahead of its neighbours";
@@ -60,7 +61,7 @@ void StampGuard::learn(Topic& topic, std::int64_t stamp_ns, std::int64_t offset_
     topic.offset_ns = offset_ns;
     return;
   }
-  const std::int64_t interval_ns = std::max<std::int64_t>(stamp_ns - topic.stamp_ns, 0);
+  const std::int64_t interval_ns = std::clamp<std::int64_t>(stamp_ns - topic.stamp_ns, 0, kLongest_ns);
   topic.interval_ns += topic.interval_ns == 0 ? interval_ns : (interval_ns - topic.interval_ns) / kMeanOver;
   const std::int64_t later_ns = offset_ns - topic.offset_ns;
   topic.offset_ns += later_ns > 0 ? later_ns : later_ns / kSlower;

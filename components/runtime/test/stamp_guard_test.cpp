@@ -52,6 +52,15 @@ TEST(StampGuard, AcceptsAClockThatWasSetOnceAFewMessagesAgree) {
   }
 }
 
+TEST(StampGuard, AllowsNoLessForAClockThatWasSetByDecades) {
+  StampGuard guard;
+  EXPECT_EQ(guard.check("/of_2038", kYear2038, 0, std::nullopt).outcome, Outcome::kAccepted);
+  EXPECT_EQ(guard.check("/set", kSecond, 0, std::nullopt).outcome, Outcome::kAccepted);
+  EXPECT_EQ(guard.check("/set", kYear2038 + kFrame, kFrame, std::nullopt).outcome, Outcome::kAccepted);
+  const auto early = guard.check("/set", kYear2038 + 2 * kFrame + kSecond, 2 * kFrame, std::nullopt);
+  EXPECT_EQ(early.outcome, Outcome::kAccepted) << "as of any topic with a long interval";
+}
+
 TEST(StampGuard, TakesNoJumpsThatDisagreeForAClock) {
   StampGuard guard;
   Camera camera{guard};
