@@ -83,10 +83,12 @@ bool StampGuard::agrees_with_another(const Topic& own, std::int64_t stamp_ns, st
   });
 }
 
+/// Those that waited in another component come at once: each is then ahead by an interval, however long that is.
 int StampGuard::agreeing_suspects(const Topic& topic, std::int64_t stamp_ns, std::int64_t arrival_ns) const {
   const std::int64_t interval_ns = stamp_ns - topic.suspect_stamp_ns;
   const std::int64_t ahead_ns = interval_ns - (arrival_ns - topic.suspect_arrival_ns);
-  const bool agrees = interval_ns > 0 && ahead_ns <= allowance_ns(topic);
+  const std::int64_t most_ns = std::max(allowance_ns(topic), topic.interval_ns * 5 / 4);
+  const bool agrees = interval_ns > 0 && ahead_ns <= most_ns;
   return agrees ? topic.suspects : 0;
 }
 

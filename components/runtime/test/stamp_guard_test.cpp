@@ -52,6 +52,18 @@ TEST(StampGuard, AcceptsAClockThatWasSetOnceAFewMessagesAgree) {
   }
 }
 
+TEST(StampGuard, AcceptsAClockThatWasSetAlsoOfRareMessagesThatWaitedTogether) {
+  constexpr std::int64_t kRare = 4 * kSecond;
+  StampGuard guard;
+  const auto outcome = [&guard](std::int64_t stamp, std::int64_t arrival) {
+    return guard.check("/rare", kNow + stamp, arrival, std::nullopt).outcome;
+  };
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(outcome(i * kRare, i * kRare), Outcome::kAccepted);
+  // A component before this one passed them on at once, when the fifth one came.
+  for (int i = 10; i < 14; ++i) EXPECT_EQ(outcome(i * kRare - 500 * kSecond, 14 * kRare), Outcome::kSuspected);
+  EXPECT_EQ(outcome(14 * kRare - 500 * kSecond, 14 * kRare), Outcome::kClockStep);
+}
+
 TEST(StampGuard, AllowsNoLessForAClockThatWasSetByDecades) {
   StampGuard guard;
   EXPECT_EQ(guard.check("/of_2038", kYear2038, 0, std::nullopt).outcome, Outcome::kAccepted);
