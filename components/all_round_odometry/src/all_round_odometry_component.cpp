@@ -35,7 +35,7 @@ class AllRoundOdometryComponent final : public runtime::Component {
   }
 
  private:
-  static constexpr int kMaxRefused = 5;  // consecutive stereo poses, after which their clock counts as set back at all
+  static constexpr int kMaxRefused = 5;  // consecutive stereo poses: their clock was set back, if only a little
   static constexpr std::size_t kMaxWaiting = 100;
   static constexpr double kSilence_s = 0.3, kSilent = 3.0;  // at least, and in intervals
 

@@ -142,7 +142,7 @@ TEST_F(LocalizerOnTopics, SaysThatAClockBehindByAnHourDisagrees) {
   EXPECT_TRUE(harness_.log_contains("camera clocks are not synchronised"));
 }
 
-TEST_F(LocalizerOnTopics, TakesPanoramasFromBeforeTheOdometryForNoWrongClock) {
+TEST_F(LocalizerOnTopics, DoesNotBlameAClockForPanoramasFromBeforeTheOdometry) {
   load();
   drive(0, 80);
   for (int i = 1; i <= 15; ++i) publish_azimuth(stamp(0) - 1, stamp(5 * i), 0.0);

@@ -13,7 +13,8 @@ namespace panvo::runtime {
 
 /// Lets messages with plausible stamps into an input of a component. Those that may be of a clock that was set wait for
 /// the next ones, which show it: then all follow, late but complete, so that no motion is lost on the way through several
-/// components. Otherwise they are dropped, counted and logged. Fewer than Limits::confirmations wait. Thread-safe.
+/// components. Otherwise they are dropped, counted and logged. Fewer than Limits::confirmations wait; those that
+/// still do at the end of a run are lost, uncounted. Thread-safe.
 class StampGate {
  public:
   using Take = std::function<void(const SamplePtr&)>;

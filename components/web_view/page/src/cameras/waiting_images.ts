@@ -5,7 +5,7 @@ import type { FeatureTrails } from "../model/features.ts";
 
 export type ImageHappening = Extract<Happening, { kind: "image" }>;
 
-const silence_s = 1; // without points for so long, the odometry is taken to give none
+const silence_s = 1; // after so long without points, none are expected
 const most = 5; // images; 0.2 s at 25 Hz
 
 export class WaitingImages {

@@ -17,7 +17,7 @@ export class Plot {
   #plot: uPlot | undefined;
   #shown = ""; // the curves and colours that the plot was made for
   #curves: Curve[] = [];
-  #isUpdating = false; // what the plot tells of its cursor then is not of the user
+  #isUpdating = false; // the plot then reports a cursor that the user has not moved
 
   constructor(
     readonly chart: Chart,

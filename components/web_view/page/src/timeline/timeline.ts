@@ -74,7 +74,7 @@ export class Timeline {
   }
 
   #setCursor(time: number | undefined): void {
-    if (time === this.cursor_s || Math.abs(time! - this.cursor_s!) < 1e-3) return; // of a plot that has rounded it
+    if (time === this.cursor_s || Math.abs(time! - this.cursor_s!) < 1e-3) return; // a plot has only rounded it
     this.cursor_s = time;
     for (const plot of this.#plots) plot.tell(time);
     this.#tellTime();

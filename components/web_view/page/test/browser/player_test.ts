@@ -149,7 +149,7 @@ test("a recorder is paused and goes on", async () => {
       queueMicrotask(() => player.tells({ kind: "reply", call: order.call, response: recorder }));
     };
     const names = ["Pause", "Resume", "IsPaused"].map((type) => ({ name: `/robot/rosbag2_recorder/${type.replace(/\B[A-Z]/g, "_$&").toLowerCase()}`, type: `rosbag2_interfaces/srv/${type}` }));
-    player.tells({ kind: "services", services: [...player.offered, ...names] }); // beside the player, which is none
+    player.tells({ kind: "services", services: [...player.offered, ...names] }); // beside the player, which is not listed
     Object.assign(globalThis, { recorder });
   });
   const shows = (text: string) => page.waitForFunction((what) => (document.getElementById("recorders") as HTMLElement).innerText.replace(/\s+/g, " ") === what, { polling: 100 }, text);
