@@ -114,7 +114,7 @@ class Worker {
   void run_timer(Timer& timer);
 
   /// Whether no task is waiting. If sources step only then, no queue overflows: each worker on the way holds at most
-  /// one more task.
+  /// one more task, or, after a clock was set, those that waited for it (see StampGate).
   bool queue_is_empty() const;
   bool failed() const noexcept { return failed_; }
 

@@ -15,6 +15,7 @@ class Row {
   #button: HTMLButtonElement;
   element: HTMLElement;
   #isPaused: boolean | undefined;
+  #isAsking = false; // for a change, during which the state is polled, too
 
   constructor(
     readonly node: string,
@@ -32,13 +33,14 @@ class Row {
       this.#isPaused = undefined;
       setText(this.#state, (error as Error).message);
     }
-    this.#button.disabled = this.#isPaused === undefined;
+    this.#button.disabled = this.#isAsking || this.#isPaused === undefined;
     setText(this.#button, this.#isPaused ? "Record" : "Pause");
   }
 
   async #toggle(): Promise<void> {
-    this.#button.disabled = true;
+    this.#isAsking = this.#button.disabled = true;
     await this.call(`${this.node}/${this.#isPaused ? "resume" : "pause"}`, {}).catch(() => {}); // refresh() says what is wrong
+    this.#isAsking = false;
     await this.refresh();
   }
 }

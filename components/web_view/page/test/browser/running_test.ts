@@ -42,13 +42,14 @@ after(async () => {
   await server.remove();
 });
 
-/** Publishes until the page has it, as it may not be subscribed to yet. */
+/** Publishes until the page has it, as it may not be subscribed to yet; for half a minute at most. */
 async function publishedUntil(page: Page, publish: () => void, isThere: () => boolean): Promise<void> {
-  for (;;) {
+  for (let attempt = 0; attempt < 60; ++attempt) {
     publish();
     const seen = page.waitForFunction(isThere, { polling: 50, timeout: 500 });
     if (await seen.then(() => true, () => false)) return;
   }
+  throw new Error(`the page does not have what was published: ${isThere}`);
 }
 
 const publishImage = (stamp_s: number, grey: number) => {
