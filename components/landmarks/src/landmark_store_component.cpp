@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -22,6 +23,7 @@
 #include "panvo/runtime/component.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "run_finder.hpp"
+#include "save_service.hpp"
 #include "store_parameters.hpp"
 #include "store_writer.hpp"
 
@@ -37,6 +39,9 @@ class LandmarkStoreComponent final : public runtime::Component {
       : context_(context),
         parameters_(context.parameters<StoreParameters>()),
         output_(context.output(topics::kLandmarks)) {
+    offer_saving(context, location_, [this] {
+      return finder_ ? std::nullopt : std::optional(writer_ ? writer_->waiting() : std::size_t{0});
+    });
     if (parameters_.file.empty()) {
       context.log().info("no file set: the landmarks of this run will not be saved");
       return;
@@ -44,11 +49,11 @@ class LandmarkStoreComponent final : public runtime::Component {
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(message); });
     map_.emplace(context, [this](const auto& moved) { on_moved(moved); });
     if (!parameters_.read_only) {
+      run_.id = context.run_id();
       context.input(topics::kCorrectionOutcome, [this](const auto& message) { on_outcome(*message); });
       context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_odometry(*message); });
     }
     patience_.answer_s = parameters_.answer_s;
-    if (!parameters_.read_only) run_.id = context.run_id();
     if (!location_.is_server()) context.about_to_read(parameters_.file);
     try {
       if (parameters_.read_only || LandmarkStore::exists(location_, patience_)) open();
@@ -69,8 +74,7 @@ class LandmarkStoreComponent final : public runtime::Component {
   }
 
   ~LandmarkStoreComponent() override {
-    if (!writer_) return;
-    writer_->finish();
+    if (writer_) writer_->finish();
     tell_notices();
   }
 
@@ -167,8 +171,7 @@ class LandmarkStoreComponent final : public runtime::Component {
         return tell(error.what());
       }
       map_->map().add(landmark);
-      const auto found_use = uses.find(stored_id);
-      const auto use = found_use == uses.end() ? LandmarkUse{} : found_use->second;
+      const auto use = uses.contains(stored_id) ? uses.at(stored_id) : LandmarkUse{};
       const auto before = is_own ? std::nullopt : std::optional(run_.use_before(stored_id, use));
       remember(map_->map().pose(landmark.id), use, before);
       // The topic is latched, so subscribers may join later.
@@ -286,11 +289,10 @@ class LandmarkStoreComponent final : public runtime::Component {
 
   void keep(const PanoramicLandmark& landmark) {
     if (!make_room_for(landmark)) return;
-    NewLandmark added{landmark, *settings_, std::nullopt};
-    if (is_followed()) added.use = LandmarkUse{run_.session};
+    const auto use = is_followed() ? std::optional(LandmarkUse{run_.session}) : std::nullopt;
     // Not remembered, it is not moved later, either: by then, another robot's landmark may have its id.
-    if (!writer_->write(added)) return;
-    remember(map_->map().pose(landmark.id), added.use.value_or(LandmarkUse{}), std::nullopt);
+    if (!writer_->write(NewLandmark{landmark, *settings_, use})) return;
+    remember(map_->map().pose(landmark.id), use.value_or(LandmarkUse{}), std::nullopt);
   }
 
   /// Whether a landmark is kept beside those of earlier runs; removes the one that it replaces.

@@ -41,6 +41,7 @@ class FileWriter final : public StoreWriter {
   }
 
   std::vector<StoreNotice> notices() override { return std::exchange(notices_, {}); }
+  std::size_t waiting() const override { return is_locked_ ? pending_.size() : 0; }
 
   void finish() override {
     if (!is_locked_) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,8 @@ class StoreWriter {
   virtual std::vector<StoreNotice> notices() { return {}; }
   /// State, for diagnostics; may be called on another thread.
   virtual std::vector<std::pair<std::string, std::string>> diagnostics() const { return {}; }
+  /// Changes that wait for another process that reads the file.
+  virtual std::size_t waiting() const { return 0; }
   /// Ends writing: what cannot be stored in time is lost, which a notice tells.
   virtual void finish() {}
 };

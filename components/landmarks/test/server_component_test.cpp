@@ -6,6 +6,7 @@
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/runtime/testing.hpp"
 #include "poses_message.hpp"
+#include "save_caller.hpp"
 #include "store_fixture.hpp"
 #include "store_writer.hpp"
 
@@ -21,6 +22,7 @@ class ServerStoreComponent : public ServerTest {
   /// One run of a robot.
   struct Robot {
     runtime::ComponentHarness harness;
+    SaveCaller caller{harness};
     const std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>>& published =
         harness.collect(topics::kLandmarks);
 
@@ -77,6 +79,13 @@ std::string diagnostic(const StoreWriter& writer, const std::string& name) {
     if (key == name) return text;
   }
   return "";
+}
+
+TEST_F(ServerStoreComponent, NamesTheCommandThatCopiesADatabase) {
+  Robot robot(location());
+  const auto answer = robot.caller.save();
+  EXPECT_FALSE(answer.success());
+  EXPECT_THAT(answer.message(), HasSubstr("run panvo landmarks copy postgresql://"));
 }
 
 TEST_F(ServerStoreComponent, KeepsWhatIsPublishedAndBeginsWithItTheNextTime) {

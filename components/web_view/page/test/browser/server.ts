@@ -8,20 +8,23 @@ import path from "node:path";
 export interface Options {
   port?: number; // 0: any
   token?: string;
+  map?: string; // a file in the server's folder, kept by a landmark_store
 }
 
 export class Server {
   port = 0;
   #process: ChildProcess | undefined;
-  #folder = fs.mkdtempSync(path.join(os.tmpdir(), "page_test_"));
+  readonly folder = fs.mkdtempSync(path.join(os.tmpdir(), "page_test_"));
 
-  async start({ port = 0, token = "" }: Options = {}): Promise<void> {
+  async start({ port = 0, token = "", map }: Options = {}): Promise<void> {
     const parameters: [string, unknown][] = [["port", port], ["token", token], ["allow_control", true], ["page", path.resolve("dist")]];
     const lines = parameters.map(([name, value]) => `      - {name: ${name}, value: ${JSON.stringify(value)}}`);
     const encoder = ["    - pkg: panvo_compressed_images", "      plugin: ImageEncoderComponent", "      name: encoder"]; // has parameters that can be set
-    const system = path.join(this.#folder, "view.yaml");
+    const file = ["      param:", `      - {name: file, value: ${JSON.stringify(path.join(this.folder, map ?? ""))}}`];
+    const store = ["    - pkg: panvo_landmarks", "      plugin: LandmarkStoreComponent", "      name: landmark_store", ...file];
+    const system = path.join(this.folder, "view.yaml");
     const head = ["launch:", "- node_container:", "    pkg: panvo_runner", "    exec: panvo_run", "    name: viewing", '    namespace: ""', "    composable_node:"];
-    fs.writeFileSync(system, [...head, "    - pkg: panvo_web_view", "      plugin: WebViewComponent", "      name: web_view", "      param:", ...lines, ...encoder, ""].join("\n"));
+    fs.writeFileSync(system, [...head, "    - pkg: panvo_web_view", "      plugin: WebViewComponent", "      name: web_view", "      param:", ...lines, ...encoder, ...(map ? store : []), ""].join("\n"));
     this.#process = spawn(process.env.PANVO_RUN!, ["--local", system], { stdio: ["ignore", "pipe", "pipe"] });
     this.port = await portOf(this.#process);
   }
@@ -35,7 +38,7 @@ export class Server {
 
   async remove(): Promise<void> {
     await this.stop();
-    fs.rmSync(this.#folder, { recursive: true });
+    fs.rmSync(this.folder, { recursive: true });
   }
 
   url(token = ""): string {

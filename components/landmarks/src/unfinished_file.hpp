@@ -4,7 +4,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
+#include <system_error>
 
 #include "panvo/landmarks/store_error.hpp"
 
@@ -26,6 +29,22 @@ class UnfinishedFile {
   void finish() {
     std::error_code error;
     std::filesystem::rename(unfinished_, named_, error);
+    end(error);
+  }
+
+  /// As finish(), but a file that has the name by now is an error.
+  void finish_new() {
+    std::error_code error;
+    if (::renameat2(AT_FDCWD, unfinished_.c_str(), AT_FDCWD, named_.c_str(), RENAME_NOREPLACE) != 0) {
+      error = {errno, std::generic_category()};
+    }
+    // Some file systems cannot tell in one step.
+    if (error == std::errc::invalid_argument && !std::filesystem::exists(named_)) return finish();
+    end(error);
+  }
+
+ private:
+  void end(const std::error_code& error) const {
     if (error) throw StoreError(named_.string() + ": cannot be created (" + error.message() + "); nothing was changed");
     // Syncing the folder makes the rename durable.
     const auto folder = std::filesystem::absolute(named_).parent_path();
@@ -36,7 +55,6 @@ class UnfinishedFile {
     }
   }
 
- private:
   void remove() const noexcept {
     std::error_code ignored;
     std::filesystem::remove(unfinished_, ignored);
