@@ -67,4 +67,9 @@ std::optional<LastPose> read_last_pose(const std::filesystem::path& file) {
   }
 }
 
+bool looks_like_last_pose(const std::filesystem::path& file) {
+  const Lines lines = read_lines(file);
+  return lines.empty() || lines.contains("stamp_ns") || lines.contains("speed_m_per_s");
+}
+
 }  // namespace panvo::localizer

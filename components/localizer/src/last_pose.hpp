@@ -29,4 +29,7 @@ void write_last_pose(const std::filesystem::path& file, const LastPose& last);
 /// nullopt if there is no file. Throws std::runtime_error naming the file, the problem and the remedy.
 std::optional<LastPose> read_last_pose(const std::filesystem::path& file);
 
+/// Whether a file that read_last_pose rejects may be replaced: it is empty or a damaged last pose, not another file.
+bool looks_like_last_pose(const std::filesystem::path& file);
+
 }  // namespace panvo::localizer

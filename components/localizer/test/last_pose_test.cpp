@@ -6,7 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
@@ -124,6 +127,17 @@ TEST_F(LastPoseFile, ThatIsDamagedIsNamedWithTheRemedy) {
   second.drive(kBegin_ns + 4 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 1.0, 1e-6);
   EXPECT_THAT(second.log(), Contains(testing::AllOf(HasSubstr(file_), HasSubstr("delete the file"))));
+}
+
+TEST_F(LastPoseFile, IsReplacedIfDamagedAndNotIfOfAnotherKind) {
+  const std::string camera = "image_width: 640\nimage_height: 480\n";
+  for (const auto& [text, is_replaced] : {std::pair{camera, false}, {std::string("stamp_ns 17"), true}, {"", true}}) {
+    std::ofstream(file_) << text;
+    live_once();
+    std::ostringstream left;
+    left << std::ifstream(file_).rdbuf();
+    EXPECT_EQ(left.str() != text, is_replaced) << text;
+  }
 }
 
 TEST_F(LastPoseFile, OfNumbersThatAreNoPoseIsNotBelieved) {
