@@ -122,7 +122,7 @@ void Context::State::open_reader(Channel& channel, const std::optional<interface
   inputs.push_back(&channel);
   // A component may read a topic by several inputs, each of which gets all messages.
   std::string input = fmt::format("{} {}", inputs.size(), channel.topic().name);
-  const auto gate = std::make_shared<StampGate>(*this, std::move(input), std::move(take));
+  const auto gate = gates.emplace_back(std::make_shared<StampGate>(*this, std::move(input), std::move(take)));
   channel.add_reader(
       this,
       [this, gate](const TopicDescription& there, const SamplePtr& sample) {
@@ -136,11 +136,18 @@ void Context::State::start() {
   for (const auto& worker : workers) worker->start(gives_way);
 }
 
+void Context::State::set_active(bool is_active) {
+  active = is_active;
+  if (is_active) return;
+  for (const auto& gate : gates) gate->drop_waiting();
+}
+
 void Context::State::stop() {
   if (source) host.pacer.remove(*source);
   follow_clock(false);
   for (Channel* channel : inputs) channel->remove_reader(this);
   inputs.clear();
+  for (const auto& gate : gates) gate->drop_waiting();
   if (taps) host.bus.remove_tap(this);
   taps = false;
   host.services.remove_of(this);

@@ -24,6 +24,8 @@
 
 namespace panvo::runtime {
 
+class StampGate;
+
 /// Shared objects of a container that its components' contexts use.
 struct Host {
   Bus& bus;
@@ -62,6 +64,8 @@ struct Context::State {
                    std::function<void(const SamplePtr&)> take);
 
   void start();
+  /// Whether the component receives messages from now on. None of before a pause is received after it.
+  void set_active(bool is_active);
   /// No callback is running once this has returned.
   void stop();
   bool failed() const;
@@ -95,6 +99,7 @@ struct Context::State {
   std::vector<std::string> problems;             // of topics; `reader` has those of parameters
   std::vector<std::unique_ptr<Worker>> workers;  // the component's own, then its stages
   std::vector<Channel*> inputs;
+  std::vector<std::shared_ptr<StampGate>> gates;                                 // of the inputs
   std::vector<std::pair<ServiceDescription, ServiceDirectory::Serve>> services;  // offered by the component
   std::vector<std::shared_ptr<ComponentCaller>> callers;                         // called by the component
   bool taps = false;

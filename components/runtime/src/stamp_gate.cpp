@@ -36,23 +36,34 @@ void StampGate::add(const TopicDescription& topic, const SamplePtr& sample) {
   std::vector<Held> dropped;
   {
     const std::lock_guard lock(mutex_);
+    if (!state_.active) return;  // since the caller asked: nothing may wait after drop_waiting()
     verdict = state_.stamp_guard.check(input_, *stamp_ns, *arrival_ns,
                                        is_of_now ? std::optional(clocks::system_ns()) : std::nullopt);
-    dropped = pass(sample, verdict);
+    dropped = pass(topic.name, sample, verdict);
   }
-  for (const auto& one : dropped) tell(topic.name, one.verdict);
+  tell(dropped);
   if (verdict.outcome != Outcome::kClockStep) return;
   state_.logger.warn("{}: its sender's clock changed by {:+.3f} s; messages of the new time are accepted", topic.name,
                      off_s(verdict));
 }
 
-std::vector<StampGate::Held> StampGate::pass(const SamplePtr& sample, const StampGuard::Verdict& verdict) {
+void StampGate::drop_waiting() {
+  std::vector<Held> dropped;
+  {
+    const std::lock_guard lock(mutex_);
+    dropped.swap(held_);
+  }
+  tell(dropped);
+}
+
+std::vector<StampGate::Held> StampGate::pass(const std::string& topic, const SamplePtr& sample,
+                                             const StampGuard::Verdict& verdict) {
   const auto kept = std::min(held_.size(), static_cast<std::size_t>(verdict.agreeing));
   const auto first = held_.end() - static_cast<std::ptrdiff_t>(kept);
   std::vector<Held> dropped(std::make_move_iterator(held_.begin()), std::make_move_iterator(first));
   held_.erase(held_.begin(), first);
   if (verdict.outcome == Outcome::kSuspected) {
-    held_.push_back({sample, verdict});
+    held_.push_back({topic, sample, verdict});
     return dropped;
   }
   for (const auto& held : held_) take_(held.sample);
@@ -61,11 +72,13 @@ std::vector<StampGate::Held> StampGate::pass(const SamplePtr& sample, const Stam
   return dropped;
 }
 
-void StampGate::tell(const std::string& topic, const StampGuard::Verdict& dropped) {
-  state_.rejections.add(topic, dropped.reason);
-  state_.logger.warn_throttled(fmt::format("{} {}", topic, dropped.reason),
-                               "{}: dropped a message with {}, by {:+.3f} s: set the clock of its sender", topic,
-                               dropped.reason, off_s(dropped));
+void StampGate::tell(const std::vector<Held>& dropped) {
+  for (const auto& [topic, sample, verdict] : dropped) {
+    state_.rejections.add(topic, verdict.reason);
+    state_.logger.warn_throttled(fmt::format("{} {}", topic, verdict.reason),
+                                 "{}: dropped a message with {}, by {:+.3f} s: set the clock of its sender", topic,
+                                 verdict.reason, off_s(verdict));
+  }
 }
 
 }  // namespace panvo::runtime

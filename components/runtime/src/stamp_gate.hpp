@@ -13,8 +13,7 @@ namespace panvo::runtime {
 
 /// Lets messages with plausible stamps into an input of a component. Those that may be of a clock that was set wait for
 /// the next ones, which show it: then all follow, late but complete, so that no motion is lost on the way through several
-/// components. Otherwise they are dropped, counted and logged. Fewer than Limits::confirmations wait; those that
-/// still do at the end of a run are lost, uncounted. Thread-safe.
+/// components. Otherwise they are dropped, counted and logged. Fewer than Limits::confirmations wait. Thread-safe.
 class StampGate {
  public:
   using Take = std::function<void(const SamplePtr&)>;
@@ -26,15 +25,19 @@ class StampGate {
 
   void add(const TopicDescription& topic, const SamplePtr& sample);
 
+  /// Drops the messages that wait: those of before a pause are of no use after it, and at the end no more will come.
+  void drop_waiting();
+
  private:
   struct Held {
+    std::string topic;
     SamplePtr sample;
     StampGuard::Verdict verdict;
   };
 
   /// Returns those that are dropped.
-  std::vector<Held> pass(const SamplePtr& sample, const StampGuard::Verdict& verdict);
-  void tell(const std::string& topic, const StampGuard::Verdict& dropped);
+  std::vector<Held> pass(const std::string& topic, const SamplePtr& sample, const StampGuard::Verdict& verdict);
+  void tell(const std::vector<Held>& dropped);
 
   Context::State& state_;
   const std::string input_;

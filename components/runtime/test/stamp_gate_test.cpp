@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <string>
 
+#include "context_state.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 
@@ -49,8 +51,15 @@ struct StampSink : Component {
                     [&own](const ImagePtr& left) { own.push_back(left->header().stamp().sec()); });
     }
     pairs.clear();
+    state = &context.state();
+  }
+  static std::uint64_t rejected(const std::string& topic) {
+    const auto all = state->rejections.snapshot();
+    const auto found = all.find(topic);
+    return found == all.end() ? 0 : found->second.messages;
   }
   static inline Seconds pairs, lefts[2];
+  static inline Context::State* state = nullptr;
 };
 
 /// Sends a pair each second, stamped by a clock that may be set; through another component or at once.
@@ -77,6 +86,7 @@ class StampedPairs {
       arrival_ns_ += 1'000'000'000;
     }
   }
+  Container& container() { return harness_.container(); }
   bool log_contains(const std::string& text) const { return harness_.log_contains(text); }
 
  private:
@@ -124,6 +134,44 @@ TEST(StampGate, GivesTheNewTimeToEachInputOfATopic) {
   const Seconds sent = counted(1'000, 5) + counted(500, 6);
   pairs.send(sent);
   for (const auto& own : StampSink::lefts) EXPECT_THAT(own, ElementsAreArray(sent));
+}
+
+/// Of a component that got three pairs of another time last, which wait.
+struct StampGateWithWaiting : testing::Test {
+  StampGateWithWaiting() { pairs.send(counted(1'000, 5) + counted(500, 3)); }
+  void expect_counted() const {
+    EXPECT_EQ(StampSink::rejected("/stereo/left/image_rect"), 9U) << "by three inputs";
+    EXPECT_EQ(StampSink::rejected("/stereo/right/image_rect"), 3U);
+  }
+  StampedPairs pairs{false};
+};
+
+TEST_F(StampGateWithWaiting, CountsNoneOfThem) {
+  EXPECT_EQ(StampSink::rejected("/stereo/left/image_rect"), 0U);
+  EXPECT_EQ(StampSink::rejected("/stereo/right/image_rect"), 0U);
+}
+
+TEST_F(StampGateWithWaiting, DropsAndCountsThemWhenDeactivatedAndReleasesNoneLater) {
+  StampSink::state->set_active(false);
+  expect_counted();
+  pairs.send(counted(503, 2));
+  expect_counted();
+  StampSink::state->set_active(true);
+  pairs.send(counted(505, 6));
+  EXPECT_THAT(StampSink::pairs, ElementsAreArray(counted(1'000, 5) + counted(505, 6)));
+  expect_counted();
+}
+
+TEST_F(StampGateWithWaiting, DropsAndCountsThemAtTheEndOfTheRun) {
+  EXPECT_THAT(pairs.container().run(), testing::IsEmpty());
+  EXPECT_THAT(StampSink::pairs, ElementsAreArray(counted(1'000, 5)));
+  expect_counted();
+}
+
+TEST_F(StampGateWithWaiting, TellsThatTheyAreDroppedWhenUnloaded) {
+  EXPECT_FALSE(pairs.log_contains("dropped"));
+  EXPECT_TRUE(pairs.container().unload("stamp_sink"));
+  EXPECT_TRUE(pairs.log_contains("/stereo/right/image_rect: dropped a message with a stamp behind its neighbours"));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class ComponentNode final : public ControlledNode {
       state_.logger.warn("cannot be deactivated: it plays recorded data");
       return false;
     }
-    state_.active = active;
+    state_.set_active(active);
     state_.logger.info("{}", active ? "activated" : "deactivated: gets no messages");
     return true;
   }
@@ -38,7 +38,7 @@ class ComponentNode final : public ControlledNode {
       state_.logger.warn("cannot be shut down: it plays recorded data");
       return false;
     }
-    state_.active = false;
+    state_.set_active(false);
     state_.finalized = true;
     state_.logger.info("shut down: stays until it is unloaded");
     shut_down_();
