@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kHighest_m = 1e5;
 
+const FileKind kGeoreferenceFile{"georeference", {"map_frame", "origin", "position", "orientation", "covariance"}};
+
 Georeference georeference_of(const Lines& lines) {
   Georeference georeference;
   const auto frame = lines.find("map_frame");
@@ -32,20 +34,13 @@ Georeference georeference_of(const Lines& lines) {
 
 void write_georeference(const std::filesystem::path& file, const Georeference& georeference) {
   const auto& origin = georeference.origin;
-  write_lines(file, fmt::format("map_frame {}\norigin {} {} {}\n{}", georeference.map_frame, origin.latitude_deg,
-                                origin.longitude_deg, origin.altitude_m, to_lines(georeference.map_from_enu)));
+  write_kept(file, kGeoreferenceFile,
+             fmt::format("map_frame {}\norigin {} {} {}\n{}", georeference.map_frame, origin.latitude_deg,
+                         origin.longitude_deg, origin.altitude_m, to_lines(georeference.map_from_enu)));
 }
 
 std::optional<Georeference> read_georeference(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  try {
-    return georeference_of(read_lines(file));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(
-        fmt::format("{} contains no valid georeference: {}; delete the file, a new one will be "
-                    "written",
-                    file.string(), error.what()));
-  }
+  return read_kept(file, kGeoreferenceFile, georeference_of);
 }
 
 }  // namespace panvo::localizer

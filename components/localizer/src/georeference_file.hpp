@@ -17,7 +17,7 @@ struct Georeference {
   PoseInMap map_from_enu;
 };
 
-/// As write_last_pose() and read_last_pose().
+/// As write_kept() and read_kept().
 void write_georeference(const std::filesystem::path& file, const Georeference& georeference);
 std::optional<Georeference> read_georeference(const std::filesystem::path& file);
 

@@ -19,6 +19,9 @@ constexpr double kTurnRate = 0.3;                                          // ra
 constexpr double kTilt = 0.05;                                             // rad
 constexpr std::int64_t kEnd_ns = (std::int64_t{1} << 31) * 1'000'000'000;  // of stamps of messages
 
+const FileKind kLastPoseFile{"pose",
+                             {"map_frame", "stamp_ns", "speed_m_per_s", "position", "orientation", "covariance"}};
+
 std::optional<std::string> problem_of_last(const LastPose& last) {
   interfaces::Check check;
   check.require(last.stamp_ns > -kEnd_ns && last.stamp_ns < kEnd_ns, "stamp_ns", "is out of the range of stamps");
@@ -53,23 +56,13 @@ void write_last_pose(const std::filesystem::path& file, const LastPose& last) {
   if (const auto problem = problem_of_last(last)) {
     throw std::runtime_error(fmt::format("{} not written, invalid pose: {}", file.string(), *problem));
   }
-  write_lines(file, fmt::format("map_frame {}\nstamp_ns {}\nspeed_m_per_s {}\n{}", last.map_frame, last.stamp_ns,
-                                last.speed_m_per_s, to_lines(last.pose)));
+  write_kept(file, kLastPoseFile,
+             fmt::format("map_frame {}\nstamp_ns {}\nspeed_m_per_s {}\n{}", last.map_frame, last.stamp_ns,
+                         last.speed_m_per_s, to_lines(last.pose)));
 }
 
 std::optional<LastPose> read_last_pose(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  try {
-    return from_lines(read_lines(file));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(fmt::format("{} contains no valid pose: {}; delete the file, a new one will be written",
-                                         file.string(), error.what()));
-  }
-}
-
-bool looks_like_last_pose(const std::filesystem::path& file) {
-  const Lines lines = read_lines(file);
-  return lines.empty() || lines.contains("stamp_ns") || lines.contains("speed_m_per_s");
+  return read_kept(file, kLastPoseFile, from_lines);
 }
 
 }  // namespace panvo::localizer

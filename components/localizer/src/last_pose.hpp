@@ -22,14 +22,10 @@ struct LastPose {
 /// The pose after `gap_s` >= 0, with the uncertainty of driving at the last speed and turning in that time.
 PoseInMap after_gap(const LastPose& last, double gap_s);
 
-/// Replaces the file atomically, so that a killed process leaves the old one intact. Throws std::runtime_error naming
-/// the file, also for a pose that read_last_pose would reject.
+/// As write_kept(). Throws std::runtime_error naming the file also for a pose that read_last_pose would reject.
 void write_last_pose(const std::filesystem::path& file, const LastPose& last);
 
-/// nullopt if there is no file. Throws std::runtime_error naming the file, the problem and the remedy.
+/// As read_kept().
 std::optional<LastPose> read_last_pose(const std::filesystem::path& file);
-
-/// Whether a file that read_last_pose rejects may be replaced: it is empty or a damaged last pose, not another file.
-bool looks_like_last_pose(const std::filesystem::path& file);
 
 }  // namespace panvo::localizer

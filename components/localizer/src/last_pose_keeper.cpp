@@ -16,7 +16,7 @@ constexpr double kKeepPeriod_s = 1.0;
 
 }  // namespace
 
-void LastPoseKeeper::begin(Localizer& localizer, std::int64_t stamp_ns) {
+void LastPoseKeeper::begin(Localizer& localizer, std::int64_t stamp_ns) const {
   const auto last = read();
   if (last && go_on(localizer, *last, stamp_ns)) return;
   if (!is_again_) return;
@@ -30,13 +30,12 @@ void LastPoseKeeper::begin(Localizer& localizer, std::int64_t stamp_ns) {
   localizer.forget_start(is_of_map ? std::optional(last->pose) : std::nullopt, reason);
 }
 
-std::optional<LastPose> LastPoseKeeper::read() {
+std::optional<LastPose> LastPoseKeeper::read() const {
   if (parameters_.last_pose_file.empty()) return std::nullopt;
   try {
     return read_last_pose(parameters_.last_pose_file);
   } catch (const std::runtime_error& error) {
     log_.warn("{}", error.what());
-    is_to_keep_ = looks_like_last_pose(parameters_.last_pose_file);
   }
   return std::nullopt;
 }
@@ -62,7 +61,7 @@ bool LastPoseKeeper::go_on(Localizer& localizer, const LastPose& last, std::int6
 
 void LastPoseKeeper::keep(const LocalizedPose& pose, const geometry_msgs::msg::Twist& twist) {
   const bool is_known = pose.state == State::kTracking || pose.state == State::kRelocalised;
-  if (parameters_.last_pose_file.empty() || !is_to_keep_ || !is_known) return;
+  if (parameters_.last_pose_file.empty() || !is_known) return;
   if (kept_ns_ && std::abs(vision::seconds(*kept_ns_, pose.stamp_ns)) < kKeepPeriod_s) return;
   kept_ns_ = pose.stamp_ns;
   const auto& speed = twist.linear();

@@ -21,20 +21,19 @@ class LastPoseKeeper {
 
   /// Starts the journey at a stamp, from the last pose if it is recent enough. After a crash without a recent last
   /// pose, the start is unknown.
-  void begin(Localizer& localizer, std::int64_t stamp_ns);
+  void begin(Localizer& localizer, std::int64_t stamp_ns) const;
 
   /// Saves the pose every second while the vehicle is localised.
   void keep(const LocalizedPose& pose, const geometry_msgs::msg::Twist& twist);
 
  private:
-  std::optional<LastPose> read();
+  std::optional<LastPose> read() const;
   bool go_on(Localizer& localizer, const LastPose& last, std::int64_t stamp_ns) const;
 
   const ComponentParameters& parameters_;
   const bool is_again_;
   const runtime::Logger& log_;
   std::optional<std::int64_t> kept_ns_;
-  bool is_to_keep_ = true;  // else the file is another one, named by mistake
 };
 
 }  // namespace panvo::localizer

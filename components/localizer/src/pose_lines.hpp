@@ -6,20 +6,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "kept_file.hpp"
+
 #include "panvo/localizer/local_pose_graph.hpp"
 
 namespace panvo::localizer {
-
-/// Lines of "key value value ...", as the localizer keeps what the next run needs.
-using Lines = std::map<std::string, std::string>;
 
 /// The numbers of a line. Throws std::runtime_error if it is missing or does not hold `count` finite numbers.
 template <class Number>
@@ -55,12 +52,5 @@ std::optional<std::string> problem_of(const PoseInMap& pose);
 std::string to_lines(const PoseInMap& pose);
 /// The inverse. Throws std::runtime_error if the lines hold no pose without a problem.
 PoseInMap pose_of(const Lines& lines);
-
-/// Empty if there is no file.
-Lines read_lines(const std::filesystem::path& file);
-
-/// Replaces the file atomically, so that a killed process leaves the old one intact. Throws std::runtime_error naming
-/// the file.
-void write_lines(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace panvo::localizer

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <vector>
@@ -49,16 +48,16 @@ Estimate estimate_of(const Lines& lines, const Line& line) {
   return {line.unit * values[0], line.unit * values[1]};
 }
 
-const Line* line_of(const std::string& key) {
-  return std::ranges::find_if(kLines, [&key](const Line& one) { return key == one.key; });
+FileKind self_calibration_kind() {
+  FileKind kind{"calibration", {}};
+  for (const auto& line : kLines) kind.keys.emplace_back(line.key);
+  return kind;
 }
 
 SelfCalibration calibration_of(const Lines& lines) {
   SelfCalibration calibration;
-  for (const auto& [key, values] : lines) {
-    const auto* const line = line_of(key);
-    if (line == kLines.end()) throw std::runtime_error(fmt::format("'{}' is unknown", key));
-    calibration.*line->quantity = estimate_of(lines, *line);
+  for (const auto& line : kLines) {
+    if (lines.contains(line.key)) calibration.*line.quantity = estimate_of(lines, line);
   }
   return calibration;
 }
@@ -72,22 +71,11 @@ void write_self_calibration(const std::filesystem::path& file, const SelfCalibra
     if (!quantity) continue;
     text += fmt::format("{} {} {}\n", line.key, quantity->value / line.unit, quantity->sigma / line.unit);
   }
-  write_lines(file, text);
+  write_kept(file, self_calibration_kind(), text);
 }
 
 std::optional<SelfCalibration> read_self_calibration(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  try {
-    return calibration_of(read_lines(file));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(
-        fmt::format("{} contains no valid calibration: {}; delete the file, a new one will be written", file.string(),
-                    error.what()));
-  }
-}
-
-bool looks_like_self_calibration(const std::filesystem::path& file) {
-  return std::ranges::any_of(read_lines(file), [](const auto& line) { return line_of(line.first) != kLines.end(); });
+  return read_kept(file, self_calibration_kind(), calibration_of);
 }
 
 std::string to_text(const SelfCalibration& calibration) {

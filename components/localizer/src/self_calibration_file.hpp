@@ -9,11 +9,9 @@
 
 namespace panvo::localizer {
 
-/// As write_last_pose() and read_last_pose(). A line for each quantity: its name with the unit, value, standard deviation.
+/// As write_kept() and read_kept(). A line for each quantity: its name with the unit, value, standard deviation.
 void write_self_calibration(const std::filesystem::path& file, const SelfCalibration& calibration);
 std::optional<SelfCalibration> read_self_calibration(const std::filesystem::path& file);
-/// Whether an invalid file may be replaced: it is a damaged one, or one of another version, and not another file.
-bool looks_like_self_calibration(const std::filesystem::path& file);
 
 /// The quantities in a sentence, for the log; empty if there is none.
 std::string to_text(const SelfCalibration& calibration);

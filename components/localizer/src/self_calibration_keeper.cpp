@@ -2,6 +2,7 @@
 #include "self_calibration_keeper.hpp"
 
 #include <cmath>
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -35,6 +36,10 @@ SelfCalibrationKeeper::SelfCalibrationKeeper(runtime::Context& context, std::fil
   context.on_end([this] { write(); });
 }
 
+SelfCalibrationKeeper::~SelfCalibrationKeeper() {
+  if (!file_.empty()) write();
+}
+
 void SelfCalibrationKeeper::keep(std::int64_t stamp_ns) {
   if (file_.empty() || (kept_ns_ && std::abs(stamp_ns - *kept_ns_) < kSavePeriod_ns)) return;
   kept_ns_ = stamp_ns;
@@ -52,12 +57,10 @@ void SelfCalibrationKeeper::read() {
     if (!text.empty()) context_.log().info("{}: until measured again, {}", file_.string(), text);
   } catch (const std::runtime_error& error) {
     context_.log().warn("{}", error.what());
-    is_to_keep_ = looks_like_self_calibration(file_);  // else it was named by mistake
   }
 }
 
 void SelfCalibrationKeeper::write() {
-  if (!is_to_keep_) return;
   const SelfCalibration measured = localizer_.self_calibration();
   SelfCalibration now = saved_;
   bool is_notable = take(now.panorama_ahead_s, measured.panorama_ahead_s);
@@ -68,7 +71,7 @@ void SelfCalibrationKeeper::write() {
   try {
     write_self_calibration(file_, now);
     saved_ = now;
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     context_.log().warn_throttled("self-calibration", "{}", error.what());
   }
 }

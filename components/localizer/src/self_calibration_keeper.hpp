@@ -16,6 +16,10 @@ class SelfCalibrationKeeper {
  public:
   /// Before any odometry. `file`: empty for none. Context and localizer must outlive it.
   SelfCalibrationKeeper(runtime::Context& context, std::filesystem::path file, Localizer& localizer);
+  /// Saves the rest when the component is unloaded before the end of the run.
+  ~SelfCalibrationKeeper();
+  SelfCalibrationKeeper(const SelfCalibrationKeeper&) = delete;
+  SelfCalibrationKeeper& operator=(const SelfCalibrationKeeper&) = delete;
 
   /// To be called with each pose of new odometry. Saves notable changes every ten seconds; the rest at the end of the run.
   void keep(std::int64_t stamp_ns);
@@ -27,7 +31,6 @@ class SelfCalibrationKeeper {
   runtime::Context& context_;
   const std::filesystem::path file_;
   Localizer& localizer_;
-  bool is_to_keep_ = true;
   SelfCalibration saved_;
   std::optional<std::int64_t> kept_ns_;
 };

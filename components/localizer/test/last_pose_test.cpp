@@ -171,6 +171,19 @@ TEST_F(LastPoseFile, OfAStampACovarianceOrAPlaceThatIsNoneIsNotBelieved) {
   }
 }
 
+TEST_F(LastPoseFile, OfAnotherKindIsLeftAsItIs) {
+  const std::string text = "image_width: 640\nimage_height: 480\n";
+  std::ofstream(file_) << text;
+  Life only(kept_);
+  only.drive(kBegin_ns, 51);
+  EXPECT_NEAR(only.x(), 10.0, 1e-9);
+  EXPECT_THAT(only.log(), Contains(HasSubstr(file_ + " contains no valid pose: 'image_width:' is unknown")));
+  EXPECT_THAT(only.log(), Contains(HasSubstr(file_ + " is not replaced by a pose")));
+  std::ostringstream left;
+  left << std::ifstream(file_).rdbuf();
+  EXPECT_EQ(left.str(), text);
+}
+
 TEST_F(LastPoseFile, ThatCannotBeWrittenDoesNotStopIt) {
   Life only({{"last_pose_file", folder_ / "nowhere" / "last_pose.txt"}});
   only.drive(kBegin_ns, 51);

@@ -173,7 +173,7 @@ TEST_F(LocalizerWithSelfCalibration, ReplacesNoFileOfAnotherKind) {
   const std::string text = "image_width: 640\nimage_height: 480\n";
   std::ofstream(file_) << text;
   begin();
-  EXPECT_TRUE(harness_.log_contains("contains no valid calibration: 'image_height:' is unknown; delete the file"));
+  EXPECT_TRUE(harness_.log_contains("contains no valid calibration: 'image_width:' is unknown; it is of another kind"));
   wind(0, 600, 0);
   EXPECT_FALSE(references_.empty()) << "there is something to keep";
   std::ostringstream left;
@@ -187,6 +187,16 @@ TEST_F(LocalizerWithSelfCalibration, WritesTheRestAtTheEndOfTheRun) {
   ASSERT_FALSE(references_.empty());
   EXPECT_FALSE(std::filesystem::exists(file_)) << "it is written every ten seconds";
   EXPECT_THAT(harness_.container().run(), IsEmpty());
+  ASSERT_TRUE(read_self_calibration(file_));
+  EXPECT_NEAR(read_self_calibration(file_)->panorama_ahead_s->value, 0.0, 0.01);
+}
+
+TEST_F(LocalizerWithSelfCalibration, WritesTheRestWhenItIsUnloaded) {
+  begin();
+  for (int frame = 0; references_.empty() && frame < 500; frame += 5) wind(frame, frame + 5, 0);
+  ASSERT_FALSE(references_.empty());
+  EXPECT_FALSE(std::filesystem::exists(file_)) << "it is written every ten seconds";
+  EXPECT_TRUE(harness_.container().unload("localizer"));
   ASSERT_TRUE(read_self_calibration(file_));
   EXPECT_NEAR(read_self_calibration(file_)->panorama_ahead_s->value, 0.0, 0.01);
 }
