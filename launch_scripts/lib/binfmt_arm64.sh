@@ -1,5 +1,5 @@
-#!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
 # Registers qemu for arm64 programs with the kernel, in a user and mount namespace of its own only, and runs the command given.
 set -euo pipefail
 folder=/proc/sys/fs/binfmt_misc
