@@ -29,7 +29,7 @@ std::string save(const runtime::Context& context, const StoreLocation& location,
   }
   if (!waiting) throw StoreError("the store is not open yet: save again in a few seconds");
   const std::filesystem::path file = location.text();
-  if (!std::filesystem::exists(file)) throw StoreError("there is no landmark yet: drive on, then save again");
+  if (!std::filesystem::exists(file)) throw StoreError("no landmarks are stored yet: drive on, then save again");
   const auto copy = save_beside(file, context.host_ns().value_or(context.passing_ns()));
   const auto told = fmt::format("{} landmarks saved as {}", copy.landmarks, copy.file.filename().string());
   if (*waiting == 0) return told;

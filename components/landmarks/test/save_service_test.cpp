@@ -2,10 +2,8 @@
 // The store is saved while it is in use.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -17,6 +15,7 @@
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/runtime/testing.hpp"
 #include "panvo/sqlite/database.hpp"
+#include "panvo/test/file_size_limit.hpp"
 #include "panvo/test/temporary_folder.hpp"
 #include "save_caller.hpp"
 
@@ -112,29 +111,16 @@ TEST_F(SaveService, SaysSoWhileThereIsNoLandmark) {
   load(file_);
   const auto answer = save();
   EXPECT_FALSE(answer.success());
-  EXPECT_THAT(answer.message(), HasSubstr("there is no landmark yet"));
+  EXPECT_THAT(answer.message(), HasSubstr("no landmarks are stored yet"));
   EXPECT_THAT(files(), IsEmpty()) << "no store was made for the copy";
 }
 
 TEST_F(SaveService, LeavesNothingBehindIfTheDiskIsFull) {
-  struct Limit {  // makes the kernel refuse to grow the file
-    rlimit before{};
-    explicit Limit(rlim_t bytes) {
-      ::getrlimit(RLIMIT_FSIZE, &before);
-      const rlimit small{bytes, before.rlim_max};
-      ::setrlimit(RLIMIT_FSIZE, &small);
-      ::signal(SIGXFSZ, SIG_IGN);
-    }
-    ~Limit() {
-      ::setrlimit(RLIMIT_FSIZE, &before);
-      ::signal(SIGXFSZ, SIG_DFL);
-    }
-  };
   load(file_);
   publish(made_up_landmark(1));
   publish(made_up_landmark(2));
   const auto answer = [&] {
-    const Limit limit(8192);
+    const panvo::test::FileSizeLimit limit(8192);
     return save();
   }();
   EXPECT_FALSE(answer.success());

@@ -8,23 +8,24 @@
 #include <stdexcept>
 
 #include "panvo/interfaces/check.hpp"
+#include "panvo/interfaces/stamp_range.hpp"
 #include "panvo/localizer/dead_reckoning.hpp"
 #include "pose_lines.hpp"
 
 namespace panvo::localizer {
 namespace {
 
-constexpr double kMinSpeed = 0.5;                                          // m/s: a stationary vehicle may start
-constexpr double kTurnRate = 0.3;                                          // rad/s, of a vehicle in a bend
-constexpr double kTilt = 0.05;                                             // rad
-constexpr std::int64_t kEnd_ns = (std::int64_t{1} << 31) * 1'000'000'000;  // of stamps of messages
+constexpr double kMinSpeed = 0.5;  // m/s: a stationary vehicle may start
+constexpr double kTurnRate = 0.3;  // rad/s, of a vehicle in a bend
+constexpr double kTilt = 0.05;     // rad
 
 const FileKind kLastPoseFile{"pose",
                              {"map_frame", "stamp_ns", "speed_m_per_s", "position", "orientation", "covariance"}};
 
 std::optional<std::string> problem_of_last(const LastPose& last) {
   interfaces::Check check;
-  check.require(last.stamp_ns > -kEnd_ns && last.stamp_ns < kEnd_ns, "stamp_ns", "is out of the range of stamps");
+  check.require(last.stamp_ns > -interfaces::kEndOfStamps_ns && last.stamp_ns < interfaces::kEndOfStamps_ns, "stamp_ns",
+                "is out of the range of stamps");
   check.within("speed_m_per_s", last.speed_m_per_s, 0.0, interfaces::kMaxRate);
   return check.problem() ? check.problem() : problem_of(last.pose);
 }

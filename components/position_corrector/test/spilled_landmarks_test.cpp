@@ -2,12 +2,10 @@
 #include "panvo/position_corrector/spilled_landmarks.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-
-#include <csignal>
 
 #include <random>
 
+#include "panvo/test/file_size_limit.hpp"
 #include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::position_corrector {
@@ -93,24 +91,11 @@ TEST(SpilledLandmarks, StayInMemoryWhereNoFileCanBeMadeAndSayWhy) {
 }
 
 TEST(SpilledLandmarks, StayInMemoryWhenTheDiskIsFullAndThoseBeforeCanStillBeRead) {
-  struct Limit {  // makes the kernel refuse to grow the file
-    rlimit before{};
-    explicit Limit(rlim_t bytes) {
-      ::getrlimit(RLIMIT_FSIZE, &before);
-      const rlimit small{bytes, before.rlim_max};
-      ::setrlimit(RLIMIT_FSIZE, &small);
-      ::signal(SIGXFSZ, SIG_IGN);
-    }
-    ~Limit() {
-      ::setrlimit(RLIMIT_FSIZE, &before);
-      ::signal(SIGXFSZ, SIG_DFL);
-    }
-  };
   const TemporaryFolder folder;
   SpilledLandmarks spilled(folder.path());
   spilled.put(1, some_keypoints(1, 50));
   {
-    const Limit limit(50 * 164 + 1000);
+    const test::FileSizeLimit limit(50 * 164 + 1000);
     spilled.put(2, some_keypoints(2, 50));
   }
   EXPECT_NE(spilled.problem().find("cannot write"), std::string::npos) << spilled.problem();

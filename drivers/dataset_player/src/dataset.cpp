@@ -9,6 +9,7 @@
 #include "layouts.hpp"
 #include "panvo/calibration_files/mount.hpp"
 #include "panvo/dataset_player/image_file.hpp"
+#include "panvo/interfaces/stamp_range.hpp"
 
 namespace panvo::dataset_player {
 
@@ -72,7 +73,7 @@ void expect_image_size(const vision::PinholeCamera& camera, const fs::path& cali
 
 std::int64_t stamp_at(std::uint64_t place, double rate_hz, const fs::path& image) {
   const double stamp_ns = static_cast<double>(place) * 1e9 / rate_hz;
-  if (stamp_ns < static_cast<double>(kEndOfStamps_ns)) return std::llround(stamp_ns);
+  if (stamp_ns < static_cast<double>(interfaces::kEndOfStamps_ns)) return std::llround(stamp_ns);
   throw DatasetError(fmt::format(
       "{}: at {:g} Hz, image {} would be later than stamps can be; number the images from 0, set a higher rate_hz, "
       "or add times",

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "panvo/interfaces/stamp_range.hpp"
+
 namespace panvo::dataset_player {
 
 Passes::Passes(std::vector<TimelineEvent> events, std::uint64_t count) : first_(std::move(events)) {
@@ -16,7 +18,7 @@ Passes::Passes(std::vector<TimelineEvent> events, std::uint64_t count) : first_(
   begin_ns_ = std::find_if(first_.begin(), first_.end(), is_image)->stamp_ns;
   const std::int64_t end_ns = std::find_if(first_.rbegin(), first_.rend(), is_image)->stamp_ns;
   length_ns_ = end_ns - begin_ns_;
-  const auto longest_ns = (kEndOfStamps_ns - 1 - begin_ns_) / static_cast<std::int64_t>(count);
+  const auto longest_ns = (interfaces::kEndOfStamps_ns - 1 - begin_ns_) / static_cast<std::int64_t>(count);
   if (length_ns_ > longest_ns) {
     throw DatasetError(std::to_string(count) + " passes end later than stamps can be, in 2038; play fewer (passes)");
   }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "panvo/interfaces/check.hpp"
+#include "panvo/interfaces/stamp_range.hpp"
 
 namespace panvo::dataset_player {
 namespace {
@@ -62,7 +63,7 @@ double TextFile::number(const TextLine& line, std::size_t field) const {
 
 std::int64_t TextFile::nanoseconds(const TextLine& line, std::size_t field) const {
   std::int64_t value = 0;
-  if (!parse(text(line, field), value) || value < 0 || value >= kEndOfStamps_ns) {
+  if (!parse(text(line, field), value) || value < 0 || value >= interfaces::kEndOfStamps_ns) {
     fail(line, "stamp '" + line.fields[field] +
                    "' is not a whole number of nanoseconds from 1970 to 2038; correct or remove the line");
   }
@@ -70,7 +71,7 @@ std::int64_t TextFile::nanoseconds(const TextLine& line, std::size_t field) cons
 }
 
 std::int64_t TextFile::seconds_as_ns(const TextLine& line, std::size_t field) const {
-  constexpr long double kEnd_s = kEndOfStamps_ns / 1'000'000'000 - 1;  // rounding stays below
+  constexpr long double kEnd_s = interfaces::kEndOfStamps_ns / 1'000'000'000 - 1;  // rounding stays below
   long double seconds = 0.0L;  // a double loses hundreds of ns of a time since 1970
   if (!parse(text(line, field), seconds) || !(seconds >= 0.0L && seconds < kEnd_s)) {
     fail(line,

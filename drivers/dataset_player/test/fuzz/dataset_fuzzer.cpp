@@ -7,6 +7,7 @@
 
 #include "panvo/dataset_player/dataset.hpp"
 #include "panvo/dataset_player/passes.hpp"
+#include "panvo/interfaces/stamp_range.hpp"
 #include "panvo/test/temporary_folder.hpp"
 
 namespace {
@@ -66,7 +67,7 @@ void play(const Dataset& dataset) {
   std::int64_t before_ns = 0;
   for (std::uint64_t i = 0; i < passes.size(); ++i) {
     const auto stamp_ns = passes[i].stamp_ns;
-    if (stamp_ns < before_ns || stamp_ns >= kEndOfStamps_ns) std::abort();
+    if (stamp_ns < before_ns || stamp_ns >= panvo::interfaces::kEndOfStamps_ns) std::abort();
     before_ns = stamp_ns;
   }
 }

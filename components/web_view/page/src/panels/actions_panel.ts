@@ -7,7 +7,7 @@ type Call = (service: string, request: unknown) => Promise<unknown>;
 export class ActionsPanel {
   #list = h("div.actions");
   #answer = h("p.answer", { "aria-live": "polite" });
-  #underWay = new Set<string>(); // services, whose buttons may come anew meanwhile
+  #underWay = new Set<string>(); // services that have not answered; their buttons may be replaced meanwhile
 
   constructor(
     readonly element: HTMLElement,

@@ -38,7 +38,7 @@ test("a click saves the map of the landmark store, and its answer is shown", asy
   await page.waitForSelector("#actions button");
   assert.deepEqual(await look(), [{ label: "Save the map", disabled: false }]);
   await page.click("#actions button");
-  await shows("Save the map: refused, there is no landmark yet");
+  await shows("Save the map: refused, no landmarks are stored yet");
   assert.equal(await page.$eval("#actions .answer", (one) => one.getAttribute("aria-live")), "polite");
 
   const publisher = new Publisher(server.port);

@@ -47,7 +47,7 @@ test("an image waits for its points, but not for ever", () => {
   const closed: number[] = [];
   const imageAt = (stamp_s: number): ImageHappening => ({ kind: "image", topic: "left", frame: "left", stamp_s, bitmap: { close: () => closed.push(stamp_s) } as unknown as ImageBitmap });
   const shown = (stamp_s: number, newest: number) => waiting.add(imageAt(stamp_s), { newest })?.stamp_s;
-  assert.equal(shown(1, -Infinity), 1); // there is no odometry
+  assert.equal(shown(1, -Infinity), 1); // without odometry, images do not wait
   assert.equal(shown(2, 2), 2); // its points are there
   assert.equal(shown(2.25, 2), undefined);
   assert.equal(shown(2.5, 2), undefined);

@@ -14,9 +14,6 @@
 /// Description of recorded data sets of any layout: images, capture times and cameras.
 namespace panvo::dataset_player {
 
-/// Stamps of messages end here, in 2038: they have 31 bits for the seconds.
-inline constexpr std::int64_t kEndOfStamps_ns = (std::int64_t{1} << 31) * 1'000'000'000;
-
 /// Two simultaneous images. If a data set has no capture times, stamps are derived from the frame rate.
 struct StereoFrame {
   std::int64_t stamp_ns = 0;
